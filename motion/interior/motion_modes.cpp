@@ -45,6 +45,21 @@ Matrix diagonalise(Matrix& a) {
   return vectors;
 }
 
+Matrix transposed(const Matrix& a) {
+  Matrix out(a.empty() ? 0 : a[0].size(), std::vector<double>(a.size()));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t j = 0; j < out.size(); ++j) out[j][i] = a[i][j];
+  return out;
+}
+
+Matrix product(const Matrix& a, const Matrix& b) {
+  Matrix out(a.size(), std::vector<double>(b[0].size(), 0.0));
+  for (std::size_t i = 0; i < a.size(); ++i)
+    for (std::size_t k = 0; k < b.size(); ++k)
+      for (std::size_t j = 0; j < b[k].size(); ++j) out[i][j] += a[i][k] * b[k][j];
+  return out;
+}
+
 // Numbers in whole lanes.
 std::size_t padded(std::size_t count) {
   return (count + kDoubleLanes - 1) / kDoubleLanes * kDoubleLanes;
@@ -137,8 +152,10 @@ std::vector<Vec3f> shapesOf(std::span<const Vec3f> displacement_m,
 }  // namespace
 
 MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyframes,
-                        double tolerance_m) {
+                        double tolerance_m, const Matrix& blends) {
   Matrix products = gram(displacement_m, keyframes);
+  const Matrix turned = transposed(blends);
+  if (!blends.empty()) products = product(product(blends, products), turned);
   const Matrix vectors = diagonalise(products);
   const auto points =
       static_cast<double>(displacement_m.size() / std::max<std::size_t>(keyframes, 1));
@@ -153,7 +170,9 @@ MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyfr
     std::vector<double>& row = modes.keyframe_from_mode.emplace_back();
     for (const std::size_t m : kept) row.push_back(vectors[k][m]);
   }
-  if (keyframes > 0) modes.shapes_m = shapesOf(displacement_m, modes.keyframe_from_mode);
+  const Matrix& rows = modes.keyframe_from_mode;
+  if (keyframes > 0)
+    modes.shapes_m = shapesOf(displacement_m, blends.empty() ? rows : product(turned, rows));
   return modes;
 }
 

@@ -16,8 +16,9 @@ struct MotionModes {
 };
 
 // displacement_m: [point][keyframe], keyframes values per point. Principal components with a root
-// mean square over points below `tolerance_m` are omitted.
+// mean square over points below `tolerance_m` are omitted. With `blends`, a row per keyframe, the
+// modes are those of each keyframe's sum over all, by the shares of its row.
 MotionModes motionModes(std::span<const Vec3f> displacement_m, std::size_t keyframes,
-                        double tolerance_m);
+                        double tolerance_m, const std::vector<std::vector<double>>& blends = {});
 
 }  // namespace echocine

@@ -17,6 +17,11 @@ struct NumberedTriangle {
   std::uint32_t number = 0;
 };
 
+// Successive triangles of a surface.
+struct TriangleRange {
+  std::uint32_t first = 0, end = 0;
+};
+
 // Constant over a loop.
 struct SurfaceTopology {
   SurfaceId id{};
@@ -43,6 +48,9 @@ struct SurfaceFrame {
   // Smooth normals, indexed by SurfaceTopology::normalCorners(): unit, outward; zero without a
   // normal. Empty if the scene uses facet normals.
   std::vector<std::vector<Vec3f>> normals{};
+  // By surface, ascending: a superset of the triangles that the imaging plane cuts. Empty if
+  // unknown.
+  std::vector<std::vector<TriangleRange>> near_plane{};
 };
 
 }  // namespace echocine

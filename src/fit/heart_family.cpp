@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/parallel.h"
 #include "core/units.h"
+#include "fit/blended_beat.h"
 #include "fit/searched_dials.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
@@ -197,11 +198,16 @@ void HeartFamily::keepNearPlane(const std::vector<SurfaceTopology>& all,
 void HeartFamily::keepModes(std::vector<Node> recorded) {
   std::vector<std::optional<SurfaceModes>> modes(recorded.front().size());
   const SurfacePatches patches = patchesOf(surfaces_);
+  std::vector<std::vector<double>> at_places;
+  for (std::size_t n = 0; n < design_.size(); ++n) {
+    const std::vector<float> shares = design_.shares(design_.at(n));
+    at_places.emplace_back(shares.begin(), shares.end());
+  }
   parallelBlocks(modes.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end; ++f) {
       std::vector<const SurfaceFrame*> hearts;
       for (const Node& node : recorded) hearts.push_back(&node[f]);
-      modes[f].emplace(hearts, kept_, patches);
+      modes[f].emplace(hearts, kept_, patches, at_places);
       for (Node& node : recorded) node[f] = {};
     }
   });
@@ -222,8 +228,10 @@ ModelLoop HeartFamily::at(const std::vector<double>& values, const PlaneTilt& ti
   checkAngle("rotate_deg", tilt.rotate_rad, tilt_rad_);
   checkValues(ranges(), values);
   const std::vector<float> share = design_.shares(values);
+  const BlendedBeat beat(modes_, share, tilt);
   ModelLoop loop =
-      ModelPlane(scene_, surfaces_, segments_, focus).cut(blendNearPlane(modes_, share, tilt));
+      ModelPlane(scene_, surfaces_, segments_, focus)
+          .cut(modes_.size(), [&](std::size_t f, SurfaceFrame& frame) { beat.frameAt(f, frame); });
   for (std::size_t n = 0; n < share.size(); ++n)
     loop.systole += static_cast<double>(share[n]) * systoles_[n];
   return loop;

@@ -247,4 +247,22 @@ ModelLoop ModelPlane::cut(const std::vector<SurfaceFrame>& frames) const {
   return loop;
 }
 
+// A frame is cut while it is in the processor's cache. The first one of each block is made twice.
+ModelLoop ModelPlane::cut(std::size_t count, const MakeFrame& make) const {
+  constexpr std::size_t kTogether = 10;
+  ModelLoop loop = empty_;
+  loop.frames.resize(count);
+  parallelBlocks(count, kTogether, [&](std::size_t begin, std::size_t end) {
+    PlaneSlice slice(surfaces_, coarse_.probe);
+    SurfaceFrame now, next;
+    make(begin, now);
+    for (std::size_t i = begin; i < end; ++i) {
+      make((i + 1) % count, next);
+      loop.frames[i] = cutOne(now, next, slice);
+      std::swap(now, next);
+    }
+  });
+  return loop;
+}
+
 }  // namespace echocine::fit

@@ -3,6 +3,7 @@
 // of the scene, without tracing.
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -95,6 +96,10 @@ class ModelPlane {
 
   // Cuts successive frames of equal steps through a whole beat. Runs in parallel.
   ModelLoop cut(const std::vector<SurfaceFrame>& frames) const;
+  // The same for frames that are made when they are needed, some of them twice. `make` is
+  // thread-safe and replaces a frame.
+  using MakeFrame = std::function<void(std::size_t number, SurfaceFrame& frame)>;
+  ModelLoop cut(std::size_t count, const MakeFrame& make) const;
 
  private:
   ModelFrame cutOne(const SurfaceFrame& now, const SurfaceFrame& next, PlaneSlice& slice) const;

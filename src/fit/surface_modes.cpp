@@ -1,30 +1,32 @@
 #include "fit/surface_modes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
-#include "core/box.h"
 #include "core/check.h"
 #include "core/lanes.h"
-#include "core/parallel.h"
 #include "motion/interior/motion_modes.h"
-#include "motion/surfaces/probe_placement.h"
 
 namespace echocine::fit {
 
 namespace {
 
 // Our choices. Omitted modes are far below a cell of labels and the width of a pulse; the margin is
-// far above what they add up to. A patch is a few millimetres wide and fills whole lanes.
+// far above what they add up to.
 constexpr double kTolerance_m = 2e-6;
 constexpr float kMargin_m = 2e-4f;
-constexpr std::uint32_t kPatch = 16;
 constexpr std::size_t kPatchNumbers = 3 * kPatch, kPatchLanes = kPatchNumbers / kFloatLanes;
-static_assert(kPatchNumbers % (2 * kFloatLanes) == 0 && sizeof(Vec3f) == 3 * sizeof(float));
-constexpr float kMostSteps = 32767;
+static_assert(kPatchNumbers % (6 * kFloatLanes) == 0 && sizeof(Vec3f) == 3 * sizeof(float));
+// A mode that moves no vertex of a patch by more is omitted there: a heart has about a tenth of
+// each mode.
+constexpr float kLeast_m = 1e-5f;
+// Coordinates of 16 bits, or of 10 with steps of up to 4 micrometres.
+constexpr int kWideSteps = 32767, kNarrowSteps = 511;
+constexpr float kMostNarrow_m = 4e-6f * kNarrowSteps;
 
-// Two lanes of a patch: those of the second in the upper halves.
+// Lanes of a patch from one load, the lowest bits first.
 struct TwoLanes {
   Floats8 first, second;
 };
@@ -33,54 +35,36 @@ TwoLanes twoLanesAt(const std::uint32_t* from) {
   return {__builtin_convertvector(both << 16 >> 16, Floats8),
           __builtin_convertvector(both >> 16, Floats8)};
 }
+struct ThreeLanes {
+  Floats8 first, second, third;
+};
+ThreeLanes threeLanesAt(const std::uint32_t* from) {
+  const Ints8 all = intsAt(from);
+  return {__builtin_convertvector(all << 22 >> 22, Floats8),
+          __builtin_convertvector(all << 12 >> 22, Floats8),
+          __builtin_convertvector(all << 2 >> 22, Floats8)};
+}
+
+// Appends the coordinates of a patch in steps, up to `most` of them.
+void pack(const std::array<float, kPatchNumbers>& numbers_m, float step_m, int most,
+          std::vector<std::uint32_t>& out) {
+  const std::size_t together = most == kWideSteps ? 2 : 3, bits = most == kWideSteps ? 16 : 10,
+                    begin = out.size();
+  out.resize(begin + kPatchNumbers / together, 0);
+  for (std::size_t i = 0; i < kPatchNumbers; ++i) {
+    const auto steps = static_cast<std::uint32_t>(std::lround(numbers_m[i] / step_m));
+    const std::size_t lane = i / kFloatLanes;
+    out[begin + lane / together * kFloatLanes + i % kFloatLanes] |= (steps & ((1u << bits) - 1))
+                                                                    << (lane % together * bits);
+  }
+}
 
 }  // namespace
 
-void orderByPlace(std::span<const Vec3f> places_m, std::vector<std::uint32_t>& vertices) {
-  Box box;
-  for (const std::uint32_t v : vertices) box.add(toDouble(places_m[v]));
-  constexpr double kSteps = 1023;
-  const double extent_m =
-      std::max({box.hi.x - box.lo.x, box.hi.y - box.lo.y, box.hi.z - box.lo.z, 1e-9});
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> keyed;  // Morton code, vertex
-  for (const std::uint32_t v : vertices) {
-    const Vec3d at = kSteps / extent_m * (toDouble(places_m[v]) - box.lo);
-    std::uint32_t code = 0;
-    for (std::uint32_t bit = 0; bit < 10; ++bit)
-      code |= (static_cast<std::uint32_t>(at.x) >> bit & 1) << (3 * bit) |
-              (static_cast<std::uint32_t>(at.y) >> bit & 1) << (3 * bit + 1) |
-              (static_cast<std::uint32_t>(at.z) >> bit & 1) << (3 * bit + 2);
-    keyed.emplace_back(code, v);
-  }
-  std::sort(keyed.begin(), keyed.end());
-  keyed.erase(std::unique(keyed.begin(), keyed.end()), keyed.end());
-  vertices.clear();
-  for (const auto& [code, v] : keyed) vertices.push_back(v);
-}
-
-SurfacePatches patchesOf(std::span<const SurfaceTopology> surfaces) {
-  std::vector<SurfacePatch> patches;
-  for (std::size_t s = 0; s < surfaces.size(); ++s) {
-    const std::size_t first_patch = patches.size();
-    for (std::uint32_t v = 0; v < surfaces[s].vertex_count; v += kPatch)
-      patches.push_back({s, v, std::min(v + kPatch, surfaces[s].vertex_count), {}});
-    for (const Triangle& t : surfaces[s].triangles)
-      for (const std::uint32_t v : t) {
-        std::vector<std::uint32_t>& touched = patches[first_patch + v / kPatch].touched;
-        touched.insert(touched.end(), t.begin(), t.end());
-      }
-  }
-  for (SurfacePatch& patch : patches) {
-    std::sort(patch.touched.begin(), patch.touched.end());
-    patch.touched.erase(std::unique(patch.touched.begin(), patch.touched.end()),
-                        patch.touched.end());
-  }
-  return std::make_shared<const std::vector<SurfacePatch>>(std::move(patches));
-}
-
 SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
                            const std::vector<std::vector<std::uint32_t>>& kept,
-                           SurfacePatches patches)
+                           SurfacePatches patches,
+                           const std::vector<std::vector<double>>& at_places)
     : patches_(std::move(patches)) {
   const auto per_heart = 1 / static_cast<double>(hearts.size());
   std::vector<std::size_t> first;  // point, by surface
@@ -102,7 +86,8 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
     }
   }
   // motionModes() counts the sum over hearts.
-  const MotionModes modes = motionModes(off_m, hearts.size(), kTolerance_m / std::sqrt(per_heart));
+  const MotionModes modes =
+      motionModes(off_m, hearts.size(), kTolerance_m / std::sqrt(per_heart), at_places);
   count_ = modes.count;
   for (const std::vector<double>& row : modes.keyframe_from_mode)
     mode_of_heart_.insert(mode_of_heart_.end(), row.begin(), row.end());
@@ -115,7 +100,7 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
       sum = sum + toDouble(modeAt(patch.surface, v, m));
     return toFloat(1.0 / (patch.end - patch.first) * sum);
   };
-  shapes_.reserve(patches_->size() * count_ * kPatchNumbers / 2);
+  parts_.reserve(patches_->size());
   std::vector<Vec3f> middles_m;  // by patch, mean and mode
   std::vector<float> radii_m;
   for (const SurfacePatch& patch : *patches_) {
@@ -137,32 +122,25 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
                       [&](std::size_t p, std::size_t m) { return radii_m[p * (count_ + 1) + m]; });
 }
 
-// shapes_m: by vertex of the patch, then mode. The largest coordinate is kMostSteps steps.
+// shapes_m: by vertex of the patch, then mode.
 void SurfaceModes::addPatch(const SurfacePatch& patch, std::span<const Vec3f> shapes_m) {
-  const std::size_t vertices = patch.end - patch.first;
-  for (std::size_t m = 0; m < count_; ++m) {
-    float most_m = 0;
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const Vec3f p = shapes_m[v * count_ + m];
-      most_m = std::max({most_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-    }
-    const float step_m = most_m / kMostSteps;
-    steps_m_.push_back(step_m);
-    const std::size_t begin = shapes_.size();
-    shapes_.resize(begin + kPatchNumbers / 2, 0);
-    if (step_m == 0) continue;
-    for (std::size_t v = 0; v < vertices; ++v) {
-      const Vec3f p = shapes_m[v * count_ + m];
-      std::size_t i = 3 * v;
-      for (const float number_m : {p.x, p.y, p.z}) {
-        const auto steps = static_cast<std::uint16_t>(std::lround(number_m / step_m));
-        const std::size_t lane = i / kFloatLanes;
-        shapes_[begin + lane / 2 * kFloatLanes + i % kFloatLanes] |= std::uint32_t{steps}
-                                                                     << (lane % 2 * 16);
-        ++i;
+  parts_.push_back({shapes_.size(), terms_.size(), 0, 0});
+  for (const int most : {kWideSteps, kNarrowSteps}) {
+    parts_.back().narrow = terms_.size();
+    for (std::uint32_t m = 0; m < count_; ++m) {
+      std::array<float, kPatchNumbers> numbers_m{};
+      float most_m = 0;
+      for (std::size_t v = 0; v < patch.end - patch.first; ++v) {
+        const Vec3f p = shapes_m[v * count_ + m];
+        numbers_m[3 * v] = p.x, numbers_m[3 * v + 1] = p.y, numbers_m[3 * v + 2] = p.z;
+        most_m = std::max({most_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
       }
+      if (most_m < kLeast_m || (most_m > kMostNarrow_m) != (most == kWideSteps)) continue;
+      terms_.push_back({m, most_m / static_cast<float>(most)});
+      pack(numbers_m, terms_.back().step_m, most, shapes_);
     }
   }
+  parts_.back().end = terms_.size();
 }
 
 template <typename At>
@@ -211,14 +189,26 @@ void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
     sums[i] = i * kFloatLanes < numbers
                   ? someLanesAt(mean_m + i * kFloatLanes, numbers - i * kFloatLanes)
                   : Floats8{};
-  const std::uint32_t* from = shapes_.data() + p * count_ * kPatchNumbers / 2;
-  for (std::size_t m = 0; m < count_; ++m) {
-    const float factor = factors[m + 1] * steps_m_[p * count_ + m];
-    for (std::size_t i = 0; i < kPatchLanes; i += 2) {
+  const Part& part = parts_[p];
+  const std::uint32_t* from = shapes_.data() + part.shapes;
+  const auto factorOf = [&](std::size_t term) {
+    return factors[terms_[term].mode + 1] * terms_[term].step_m;
+  };
+  for (std::size_t t = part.first; t < part.narrow; ++t) {
+    const float factor = factorOf(t);
+    for (std::size_t i = 0; i < kPatchLanes; i += 2, from += kFloatLanes) {
       const TwoLanes two = twoLanesAt(from);
       sums[i] += factor * two.first;
       sums[i + 1] += factor * two.second;
-      from += kFloatLanes;
+    }
+  }
+  for (std::size_t t = part.narrow; t < part.end; ++t) {
+    const float factor = factorOf(t);
+    for (std::size_t i = 0; i < kPatchLanes; i += 3, from += kFloatLanes) {
+      const ThreeLanes three = threeLanesAt(from);
+      sums[i] += factor * three.first;
+      sums[i + 1] += factor * three.second;
+      sums[i + 2] += factor * three.third;
     }
   }
   auto* const to = reinterpret_cast<float*>(&out_m[patch.first]);
@@ -227,24 +217,19 @@ void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
 }
 
 SurfaceFrame SurfaceModes::blend(std::span<const float> shares) const {
-  return blend(shares, std::vector<Side>(patches_->size(), Side::near));
+  SurfaceFrame frame;
+  blend(shares, std::vector<char>(patches_->size(), 1), frame);
+  return frame;
 }
 
-SurfaceFrame SurfaceModes::blend(std::span<const float> shares, std::span<const Side> sides) const {
-  CHECK_EQ(sides.size(), patches_->size());
+void SurfaceModes::blend(std::span<const float> shares, std::span<const char> wanted,
+                         SurfaceFrame& frame) const {
+  CHECK_EQ(wanted.size(), patches_->size());
   const std::vector<float> factors = factorsOf(shares);
-  SurfaceFrame frame;
-  for (const std::vector<Vec3f>& mean_m : means_m_) frame.positions_m.emplace_back(mean_m.size());
-  for (std::size_t p = 0; p < sides.size(); ++p) {
-    const SurfacePatch& patch = (*patches_)[p];
-    std::vector<Vec3f>& out_m = frame.positions_m[patch.surface];
-    if (sides[p] == Side::near)
-      blendPatch(p, factors, out_m);
-    else
-      std::fill(out_m.begin() + patch.first, out_m.begin() + patch.end,
-                Vec3f{0, sides[p] == Side::above ? 1.0f : -1.0f, 0});
-  }
-  return frame;
+  frame.positions_m.resize(means_m_.size());
+  for (std::size_t s = 0; s < means_m_.size(); ++s) frame.positions_m[s].resize(means_m_[s].size());
+  for (std::size_t p = 0; p < wanted.size(); ++p)
+    if (wanted[p] != 0) blendPatch(p, factors, frame.positions_m[(*patches_)[p].surface]);
 }
 
 std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> shares) const {
@@ -257,39 +242,6 @@ std::vector<SurfaceModes::Ball> SurfaceModes::balls(std::span<const float> share
   for (std::size_t p = 0; p < radii_m.size(); ++p)
     out.push_back(
         {{numbers_m[3 * p], numbers_m[3 * p + 1], numbers_m[3 * p + 2]}, kMargin_m + radii_m[p]});
-  return out;
-}
-
-std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
-                                         std::span<const float> shares, const PlaneTilt& tilt) {
-  using Side = SurfaceModes::Side;
-  const Pose pose = turnedAndTilted({}, tilt.rotate_rad, tilt.tilt_rad);
-  const auto tilted = [&](Vec3f p) { return toFloat(pose.fromWorld(toDouble(p))); };
-  std::vector<std::vector<Side>> own(frames.size());
-  parallelBlocks(frames.size(), 1, [&](std::size_t f, std::size_t) {
-    for (const SurfaceModes::Ball& ball : frames[f].balls(shares)) {
-      const float y = tilted(ball.middle_m).y;
-      own[f].push_back(y > ball.radius_m    ? Side::above
-                       : y < -ball.radius_m ? Side::below
-                                            : Side::near);
-    }
-  });
-  std::vector<SurfaceFrame> out(frames.size());
-  parallelBlocks(frames.size(), 1, [&](std::size_t f, std::size_t) {
-    std::vector<Side> sides = own[f];
-    // Pieces of the frame before take their motion from here.
-    const std::vector<Side>& before = own[(f + frames.size() - 1) % frames.size()];
-    for (std::size_t p = 0; p < sides.size(); ++p)
-      if (before[p] == Side::near) sides[p] = Side::near;
-    out[f] = frames[f].blend(shares, sides);
-    if (tilt.rotate_rad == 0 && tilt.tilt_rad == 0) return;
-    for (std::size_t p = 0; p < sides.size(); ++p) {
-      if (sides[p] != Side::near) continue;
-      const SurfacePatch& patch = frames[f].patches()[p];
-      std::vector<Vec3f>& positions_m = out[f].positions_m[patch.surface];
-      for (std::size_t v = patch.first; v < patch.end; ++v) positions_m[v] = tilted(positions_m[v]);
-    }
-  });
   return out;
 }
 

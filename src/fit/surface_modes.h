@@ -3,43 +3,31 @@
 // components. A heart between them is a blend of the modes.
 
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
-#include "fit/plane_tilt.h"
-#include "motion/surfaces/surface_frame.h"
+#include "fit/surface_patches.h"
 
 namespace echocine::fit {
-
-// Sorts vertices along a Z-order curve through their places, each once: neighbours in the list lie
-// near each other.
-void orderByPlace(std::span<const Vec3f> places_m, std::vector<std::uint32_t>& vertices);
-
-// Successive vertices of a surface, which lie near each other.
-struct SurfacePatch {
-  std::size_t surface;
-  std::uint32_t first, end;
-  std::vector<std::uint32_t> touched;  // its own, and the other corners of their triangles
-};
-using SurfacePatches = std::shared_ptr<const std::vector<SurfacePatch>>;
-SurfacePatches patchesOf(std::span<const SurfaceTopology> surfaces);
 
 class SurfaceModes {
  public:
   // hearts: the same surfaces of each heart. kept: the vertices that the patches number, by
   // surface. Principal components with a root mean square over hearts and vertices below 2
-  // micrometres are omitted.
+  // micrometres are omitted. at_places: the shares of all hearts in the blend at the place of each
+  // heart; empty: this heart alone. A polynomial of least squares does not pass through its hearts,
+  // and its blends need fewer modes than they.
   SurfaceModes(std::span<const SurfaceFrame* const> hearts,
-               const std::vector<std::vector<std::uint32_t>>& kept, SurfacePatches patches);
+               const std::vector<std::vector<std::uint32_t>>& kept, SurfacePatches patches,
+               const std::vector<std::vector<double>>& at_places = {});
 
-  // The sum of all hearts, each by its share. Precondition: one share per heart; the sum is 1.
+  // The sum of all hearts, each by its share. Precondition: one share per heart; the sum is 1. With
+  // at_places, shares are those of the same polynomial.
   SurfaceFrame blend(std::span<const float> shares) const;
 
-  // Whether the plane y = 0 may cut a patch (near), otherwise its side.
-  enum class Side : std::int8_t { below, near, above };
-  // The same, of the patches near the plane. Vertices of the others lie 1 m away on their side.
-  SurfaceFrame blend(std::span<const float> shares, std::span<const Side> sides) const;
+  // The same for the vertices of the wanted patches. Others stay as they are in the frame.
+  void blend(std::span<const float> shares, std::span<const char> wanted,
+             SurfaceFrame& frame) const;
 
   // The middle of a patch, and a radius about it that no touched vertex leaves.
   struct Ball {
@@ -65,18 +53,21 @@ class SurfaceModes {
   std::size_t count_ = 0;                    // of modes
   std::vector<double> mode_of_heart_;        // count_ per heart
   std::vector<std::vector<Vec3f>> means_m_;  // by surface
-  // By patch and mode: the coordinates of its vertices in steps, and the size of a step. A blend is
-  // limited by the memory that it reads: half as much as with floats.
-  std::vector<std::uint32_t> shapes_;  // two coordinates of 16 bits in each
-  std::vector<float> steps_m_;
+  // Coordinates of a patch's vertices in a mode, in steps. A blend is limited by the memory that it
+  // reads: a third of that of floats.
+  struct Term {
+    std::uint32_t mode;
+    float step_m;
+  };
+  struct Part {
+    std::size_t shapes;              // its first coordinates
+    std::size_t first, narrow, end;  // its terms: coordinates of 16 bits, then of 10
+  };
+  std::vector<std::uint32_t> shapes_;  // two or three coordinates in each
+  std::vector<Term> terms_;
+  std::vector<Part> parts_;  // by patch
   Blocks middles_m_;
   Blocks radii_m_;  // farthest of the touched vertices from the middle
 };
-
-// A beat of a blend of hearts, in the frame of a tilted probe; frames: in their order in time, with
-// the same patches. Vertices are correct where a triangle crosses the plane in this frame or in the
-// one before. Others may lie elsewhere on their side of it.
-std::vector<SurfaceFrame> blendNearPlane(std::span<const SurfaceModes> frames,
-                                         std::span<const float> shares, const PlaneTilt& tilt);
 
 }  // namespace echocine::fit

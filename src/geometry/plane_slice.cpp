@@ -30,8 +30,9 @@ PlaneSlice::PlaneSlice(const std::vector<SurfaceTopology>& surfaces, const Probe
 }
 
 // A facet costs three sides unless it is cut.
-void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
+void PlaneSlice::cutSurface(const SurfaceTopology& surface, const SurfaceFrame& frame,
                             std::vector<ContourEdge>& edges) {
+  const std::vector<Vec3f>& positions = frame.positions_m[index(surface.id)];
   const Vec3f* position = positions.data();
   const auto cut = [&](const Triangle& corner, std::uint32_t number, const auto& above) {
     const int sides = above(corner[0]) + above(corner[1]) + above(corner[2]);
@@ -41,9 +42,14 @@ void PlaneSlice::cutSurface(const SurfaceTopology& surface, const std::vector<Ve
     edges.push_back(
         {*cutTriangle(p0, p1, p2, p0.y, p1.y, p2.y), areaNormal(p0, p1, p2), surface.id, number});
   };
+  const auto sideOf = [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; };
   if (surface.near_plane) {
-    for (const NumberedTriangle& t : *surface.near_plane)
-      cut(t.corners, t.number, [&](std::uint32_t v) { return position[v].y >= 0 ? 1 : 0; });
+    for (const NumberedTriangle& t : *surface.near_plane) cut(t.corners, t.number, sideOf);
+    return;
+  }
+  if (!frame.near_plane.empty()) {
+    for (const TriangleRange range : frame.near_plane[index(surface.id)])
+      for (std::uint32_t t = range.first; t < range.end; ++t) cut(surface.triangles[t], t, sideOf);
     return;
   }
   // Each vertex serves six facets.
@@ -160,7 +166,7 @@ void PlaneSlice::cut(const SurfaceFrame& frame) {
   const auto cutAll = [&](bool still, std::vector<ContourEdge>& edges) {
     for (const SurfaceTopology& surface : surfaces_)
       if (surface.still == still && !left_out_[index(surface.id)])
-        cutSurface(surface, frame.positions_m[index(surface.id)], edges);
+        cutSurface(surface, frame, edges);
   };
   if (!still_cut_) cutAll(true, still_edges_);
   still_cut_ = true;

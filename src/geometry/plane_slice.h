@@ -47,7 +47,7 @@ class PlaneSlice {
   const std::vector<EdgeNormals>& normals() const { return normals_; }
 
  private:
-  void cutSurface(const SurfaceTopology& surface, const std::vector<Vec3f>& positions,
+  void cutSurface(const SurfaceTopology& surface, const SurfaceFrame& frame,
                   std::vector<ContourEdge>& edges);
   void addNormals(const SurfaceFrame& frame, std::span<const ContourEdge> edges,
                   std::vector<EdgeNormals>& normals) const;

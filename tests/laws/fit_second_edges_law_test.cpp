@@ -152,5 +152,37 @@ TEST(FitFocus, OtherChambersCountLess) {
   });
 }
 
+// Frames made when they are needed give the beat of the same frames in memory, over the ends of
+// blocks too.
+TEST(FitFrames, MadeWhenNeededAreThoseInMemory) {
+  withThreads(2, [] {
+    constexpr std::size_t kCount = 13;
+    const Scene scene = heart::heartScene({}, heart::View::a4c, 20, Look::scanner);
+    const MeshMotion motion(scene);
+    std::vector<SurfaceFrame> frames(kCount);
+    for (std::size_t f = 0; f < kCount; ++f)
+      motion.frameAt(static_cast<double>(f) / kCount, frames[f], false);
+    const ModelPlane plane(scene, motion.surfaces());
+    const ModelLoop whole = plane.cut(frames),
+                    made = plane.cut(kCount,
+                                     [&](std::size_t f, SurfaceFrame&out) { out = frames[f]; });
+    ASSERT_EQ(made.frames.size(), kCount);
+    for (std::size_t f = 0; f < kCount; ++f) {
+      const ModelFrame &a = whole.frames[f], &b = made.frames[f];
+      ASSERT_EQ(a.boundary.size(), b.boundary.size()) << f;
+      ASSERT_GT(a.boundary.size(), 200U);
+      for (std::size_t i = 0; i < a.boundary.size(); ++i) {
+        ASSERT_EQ(a.boundary[i].x_m, b.boundary[i].x_m);
+        ASSERT_EQ(a.boundary[i].dx_m, b.boundary[i].dx_m);
+        ASSERT_EQ(a.boundary[i].dz_m, b.boundary[i].dz_m);
+      }
+      for (std::size_t c = 0; c < a.cells.size(); ++c) {
+        ASSERT_EQ(a.cells[c].area, b.cells[c].area);
+        ASSERT_EQ(a.cells[c].share, b.cells[c].share);
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace echocine::fit

@@ -2,13 +2,16 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 
 #include "core/hash_random.h"
 #include "core/units.h"
-#include "fit/surface_modes.h"
+#include "fit/blended_beat.h"
+#include "geometry/plane_slice.h"
 #include "motion/surfaces/probe_placement.h"
+#include "support/array_probe.h"
 #include "support/meshes.h"
 
 namespace echocine::fit {
@@ -108,39 +111,100 @@ TEST(SurfaceModesLaw, ModesAreAsManyAsTheHeartsDiffer) {
   for (const SurfaceModes& modes : balls.modes) EXPECT_LE(modes.count(), 2U);
 }
 
-// Law: of every triangle that the plane cuts, the corners are those of the whole blend, in its
-// frame and in the next; every other triangle lies on one side, as in the whole blend.
+// Law: a blend by shares of a polynomial is that of the hearts themselves, with no more modes than
+// the polynomial has terms beside its constant.
+TEST(SurfaceModesLaw, APolynomialNeedsNoMoreModesThanTerms) {
+  Balls balls;
+  // Least squares of a straight line through places -1 to 1.
+  const auto placeOf = [](int n) { return 2.0 * n / (kHearts - 1) - 1; };
+  double squares = 0;
+  for (int n = 0; n < kHearts; ++n) squares += placeOf(n) * placeOf(n);
+  const auto sharesAt = [&](double place) {
+    std::vector<double> shares;
+    for (int n = 0; n < kHearts; ++n)
+      shares.push_back(1.0 / kHearts + place * placeOf(n) / squares);
+    return shares;
+  };
+  std::vector<std::vector<double>> at_places;
+  std::vector<const SurfaceFrame*> hearts;
+  for (int n = 0; n < kHearts; ++n) {
+    at_places.push_back(sharesAt(placeOf(n)));
+    SurfaceFrame& heart = balls.hearts[static_cast<std::size_t>(n)];
+    for (std::size_t s = 0; s < 2; ++s)  // no two hearts differ alike
+      for (std::size_t v = 0; v < heart.positions_m[s].size(); ++v)
+        heart.positions_m[s][v].y += static_cast<float>(1e-3 * uniformFromHash(hashOf(n, s, v)));
+    hearts.push_back(&heart);
+  }
+  const SurfacePatches patches = patchesOf(balls.surfaces);
+  EXPECT_GT(SurfaceModes(hearts, balls.kept, patches).count(), 10U);
+  const SurfaceModes line(hearts, balls.kept, patches, at_places);
+  EXPECT_EQ(line.count(), 1U);
+  for (const double place : {-1.0, 0.0, 0.3, 1.0}) {
+    const std::vector<double> exact = sharesAt(place);
+    const std::vector<float> shares(exact.begin(), exact.end());
+    const SurfaceFrame blend = line.blend(shares);
+    for (std::size_t s = 0; s < 2; ++s)
+      for (std::size_t v = 0; v < blend.positions_m[s].size(); ++v)
+        ASSERT_LT(length(toDouble(blend.positions_m[s][v]) - balls.placeOf(0, s, v, shares)), 5e-6)
+            << place;
+  }
+}
+
+// Laws: of every triangle that the plane cuts, the corners are those of the whole blend, in its
+// frame and in the next, and near_plane has the triangle; every other triangle lies on one side, as
+// in the whole blend. A slice of near_plane is that of the whole frame.
 TEST(SurfaceModesLaw, NearThePlaneOfAnyTiltIsTheWholeBlend) {
   const Balls balls;
+  const Probe probe = arrayProbe();
   for (int draw = 0; draw < 6; ++draw) {
     const std::vector<float> shares = Balls::sharesOf(draw);
     const PlaneTilt tilt{radiansFromDegrees(7.0 * draw - 20), radiansFromDegrees(20 - 5.0 * draw)};
     const Pose pose = turnedAndTilted({}, tilt.rotate_rad, tilt.tilt_rad);
-    const std::vector<SurfaceFrame> near = blendNearPlane(balls.modes, shares, tilt);
+    const BlendedBeat beat(balls.modes, shares, tilt);
+    std::vector<SurfaceFrame> near(kFrames);
+    for (std::size_t f = 0; f < kFrames; ++f) {
+      beat.frameAt(kFrames - 1 - f, near[kFrames - 1 - f]);
+      beat.frameAt(f, near[f]);  // memory of another frame
+    }
     int cut = 0, left_out = 0;
-    for (int f = 0; f < kFrames; ++f)
+    for (int f = 0; f < kFrames; ++f) {
+      const SurfaceFrame& frame = near[static_cast<std::size_t>(f)];
       for (std::size_t s = 0; s < 2; ++s)
-        for (const Triangle& t : balls.surfaces[s].triangles) {
+        for (std::uint32_t number = 0; number < balls.surfaces[s].triangles.size(); ++number) {
+          const Triangle& t = balls.surfaces[s].triangles[number];
           int above = 0, above_near = 0;
           for (const std::uint32_t v : t) {
             above += pose.fromWorld(balls.placeOf(f, s, v, shares)).y > 0;
-            above_near += near[static_cast<std::size_t>(f)].positions_m[s][v].y > 0;
+            above_near += frame.positions_m[s][v].y > 0;
           }
-          left_out += std::abs(near[static_cast<std::size_t>(f)].positions_m[s][t[0]].y) == 1;
+          left_out += std::abs(frame.positions_m[s][t[0]].y) == 1;
           if (above == 0 || above == 3) {
             EXPECT_EQ(above, above_near) << draw;
             continue;
           }
           ++cut;
-          for (const int frame : {f, (f + 1) % kFrames})
+          EXPECT_TRUE(std::any_of(frame.near_plane[s].begin(), frame.near_plane[s].end(),
+                                  [&](const TriangleRange& range) {
+                                    return number >= range.first && number < range.end;
+                                  }));
+          for (const int of : {f, (f + 1) % kFrames})
             for (const std::uint32_t v : t) {
-              const Vec3d whole = pose.fromWorld(balls.placeOf(frame, s, v, shares));
+              const Vec3d whole = pose.fromWorld(balls.placeOf(of, s, v, shares));
               EXPECT_LT(
-                  length(toDouble(near[static_cast<std::size_t>(frame)].positions_m[s][v]) - whole),
+                  length(toDouble(near[static_cast<std::size_t>(of)].positions_m[s][v]) - whole),
                   5e-6)
                   << draw;
             }
         }
+      SurfaceFrame all = frame;
+      all.near_plane.clear();
+      PlaneSlice some(balls.surfaces, probe), whole(balls.surfaces, probe);
+      some.cut(frame);
+      whole.cut(all);
+      ASSERT_EQ(some.edges().size(), whole.edges().size());
+      for (std::size_t e = 0; e < some.edges().size(); ++e)
+        EXPECT_EQ(some.edges()[e].triangle, whole.edges()[e].triangle);
+    }
     EXPECT_GT(cut, 200);
     EXPECT_GT(left_out, 1000) << draw;
   }
