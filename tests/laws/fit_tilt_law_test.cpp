@@ -184,8 +184,15 @@ std::size_t verticesOf(const std::vector<SurfaceFrame>& frames) {
   return sum;
 }
 
+double lengthOf(const ModelFrame& frame) {
+  double sum_m = 0;
+  for (const BoundaryPoint& p : frame.boundary) sum_m += static_cast<double>(p.length_m);
+  return sum_m;
+}
+
 // A family that was made for a tilt has all that the tilted plane cuts: one that was made for more
-// says the same.
+// says the same. Its patches differ, and so do the rounding of vertices, by micrometres, and the
+// places where contours start.
 TEST(CompareTilt, AFamilyKeepsWhatItsTiltsCut) {
   withThreads(2, [] {
     const HeartNodes hearts({{"hr", 72}}, {{"edv", 130, 170}}, 4, 2);
@@ -197,8 +204,10 @@ TEST(CompareTilt, AFamilyKeepsWhatItsTiltsCut) {
     for (const double edv : {130.0, 150.0}) {
       const ModelLoop a = enough.at({edv}, tilt), b = more.at({edv}, tilt);
       for (std::size_t n = 0; n < a.frames.size(); ++n) {
-        EXPECT_EQ(bloodOf(a, n), bloodOf(b, n)) << edv << " " << n;
-        EXPECT_EQ(a.frames[n].boundary.size(), b.frames[n].boundary.size()) << edv << " " << n;
+        EXPECT_NEAR(bloodOf(a, n), bloodOf(b, n), 2e-4 * bloodOf(b, n)) << edv << " " << n;
+        const double length_m = lengthOf(b.frames[n]);
+        EXPECT_GT(length_m, 1.0);
+        EXPECT_NEAR(lengthOf(a.frames[n]), length_m, 1e-2 * length_m) << edv << " " << n;
       }
       EXPECT_LT(verticesOf(enough.surfacesAt({edv})), verticesOf(more.surfacesAt({edv})));
     }
