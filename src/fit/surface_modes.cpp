@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "core/check.h"
@@ -22,41 +23,45 @@ static_assert(kPatchNumbers % (6 * kFloatLanes) == 0 && sizeof(Vec3f) == 3 * siz
 // A mode that moves no vertex of a patch by more is omitted there: a heart has about a tenth of
 // each mode.
 constexpr float kLeast_m = 1e-5f;
-// Coordinates of 16 bits, or of 10 with steps of up to 4 micrometres.
-constexpr int kWideSteps = 32767, kNarrowSteps = 511;
-constexpr float kMostNarrow_m = 4e-6f * kNarrowSteps;
-
-// Lanes of a patch from one load, the lowest bits first.
-struct TwoLanes {
-  Floats8 first, second;
-};
-TwoLanes twoLanesAt(const std::uint32_t* from) {
-  const Ints8 both = intsAt(from);
-  return {__builtin_convertvector(both << 16 >> 16, Floats8),
-          __builtin_convertvector(both >> 16, Floats8)};
+// Coordinates that are packed together: two of 16 bits, or three of 10 with steps of up to 4
+// micrometres.
+constexpr int kWide = 2, kNarrow = 3;
+constexpr int packedBits(int together) {
+  return 32 / together;
 }
-struct ThreeLanes {
-  Floats8 first, second, third;
-};
-ThreeLanes threeLanesAt(const std::uint32_t* from) {
-  const Ints8 all = intsAt(from);
-  return {__builtin_convertvector(all << 22 >> 22, Floats8),
-          __builtin_convertvector(all << 12 >> 22, Floats8),
-          __builtin_convertvector(all << 2 >> 22, Floats8)};
+constexpr int mostSteps(int together) {
+  return (1 << (packedBits(together) - 1)) - 1;
 }
+constexpr float kMostNarrow_m = 4e-6f * mostSteps(kNarrow);
 
-// Appends the coordinates of a patch in steps, up to `most` of them.
-void pack(const std::array<float, kPatchNumbers>& numbers_m, float step_m, int most,
+using PatchLanes = std::array<Floats8, kPatchLanes>;
+
+// Appends the coordinates of a patch in steps, up to mostSteps() of them.
+void pack(const std::array<float, kPatchNumbers>& numbers_m, float step_m, int together,
           std::vector<std::uint32_t>& out) {
-  const std::size_t together = most == kWideSteps ? 2 : 3, bits = most == kWideSteps ? 16 : 10,
-                    begin = out.size();
-  out.resize(begin + kPatchNumbers / together, 0);
+  const auto count = static_cast<std::size_t>(together),
+             bits = static_cast<std::size_t>(packedBits(together)), begin = out.size();
+  out.resize(begin + kPatchNumbers / count, 0);
   for (std::size_t i = 0; i < kPatchNumbers; ++i) {
     const auto steps = static_cast<std::uint32_t>(std::lround(numbers_m[i] / step_m));
     const std::size_t lane = i / kFloatLanes;
-    out[begin + lane / together * kFloatLanes + i % kFloatLanes] |= (steps & ((1u << bits) - 1))
-                                                                    << (lane % together * bits);
+    out[begin + lane / count * kFloatLanes + i % kFloatLanes] |= (steps & ((1u << bits) - 1))
+                                                                 << (lane % count * bits);
   }
+}
+
+// Adds packed coordinates times a factor, and returns the end of them.
+template <int kTogether>
+const std::uint32_t* addPacked(const std::uint32_t* from, float factor, PatchLanes& sums) {
+  constexpr int kBits = packedBits(kTogether);
+  for (std::size_t i = 0; i < kPatchLanes; i += kTogether, from += kFloatLanes) {
+    const Ints8 packed = intsAt(from);
+    for (int lane = 0; lane < kTogether; ++lane)
+      sums[i + static_cast<std::size_t>(lane)] +=
+          factor *
+          __builtin_convertvector(packed << (32 - kBits * (lane + 1)) >> (32 - kBits), Floats8);
+  }
+  return from;
 }
 
 }  // namespace
@@ -124,23 +129,25 @@ SurfaceModes::SurfaceModes(std::span<const SurfaceFrame* const> hearts,
 
 // shapes_m: by vertex of the patch, then mode.
 void SurfaceModes::addPatch(const SurfacePatch& patch, std::span<const Vec3f> shapes_m) {
-  parts_.push_back({shapes_.size(), terms_.size(), 0, 0});
-  for (const int most : {kWideSteps, kNarrowSteps}) {
-    parts_.back().narrow = terms_.size();
-    for (std::uint32_t m = 0; m < count_; ++m) {
-      std::array<float, kPatchNumbers> numbers_m{};
-      float most_m = 0;
-      for (std::size_t v = 0; v < patch.end - patch.first; ++v) {
-        const Vec3f p = shapes_m[v * count_ + m];
-        numbers_m[3 * v] = p.x, numbers_m[3 * v + 1] = p.y, numbers_m[3 * v + 2] = p.z;
-        most_m = std::max({most_m, std::abs(p.x), std::abs(p.y), std::abs(p.z)});
-      }
-      if (most_m < kLeast_m || (most_m > kMostNarrow_m) != (most == kWideSteps)) continue;
-      terms_.push_back({m, most_m / static_cast<float>(most)});
-      pack(numbers_m, terms_.back().step_m, most, shapes_);
+  std::vector<std::array<float, kPatchNumbers>> numbers_m(count_);
+  std::vector<float> most_m(count_, 0);
+  for (std::size_t m = 0; m < count_; ++m)
+    for (std::size_t v = 0; v < patch.end - patch.first; ++v) {
+      const Vec3f p = shapes_m[v * count_ + m];
+      std::memcpy(&numbers_m[m][3 * v], &p, sizeof p);
+      most_m[m] = std::max({most_m[m], std::abs(p.x), std::abs(p.y), std::abs(p.z)});
     }
-  }
-  parts_.back().end = terms_.size();
+  const auto addTerms = [&](int together) {
+    for (std::uint32_t m = 0; m < count_; ++m) {
+      if (most_m[m] < kLeast_m || (most_m[m] > kMostNarrow_m) != (together == kWide)) continue;
+      terms_.push_back({m, most_m[m] / static_cast<float>(mostSteps(together))});
+      pack(numbers_m[m], terms_.back().step_m, together, shapes_);
+    }
+    return terms_.size();
+  };
+  Part& part = parts_.emplace_back(Part{shapes_.size(), terms_.size(), 0, 0});
+  part.narrow = addTerms(kWide);
+  part.end = addTerms(kNarrow);
 }
 
 template <typename At>
@@ -184,7 +191,7 @@ void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
   const SurfacePatch& patch = (*patches_)[p];
   const std::size_t numbers = 3 * (patch.end - patch.first);
   const auto* const mean_m = reinterpret_cast<const float*>(&means_m_[patch.surface][patch.first]);
-  Floats8 sums[kPatchLanes];
+  PatchLanes sums;
   for (std::size_t i = 0; i < kPatchLanes; ++i)
     sums[i] = i * kFloatLanes < numbers
                   ? someLanesAt(mean_m + i * kFloatLanes, numbers - i * kFloatLanes)
@@ -194,23 +201,10 @@ void SurfaceModes::blendPatch(std::size_t p, std::span<const float> factors,
   const auto factorOf = [&](std::size_t term) {
     return factors[terms_[term].mode + 1] * terms_[term].step_m;
   };
-  for (std::size_t t = part.first; t < part.narrow; ++t) {
-    const float factor = factorOf(t);
-    for (std::size_t i = 0; i < kPatchLanes; i += 2, from += kFloatLanes) {
-      const TwoLanes two = twoLanesAt(from);
-      sums[i] += factor * two.first;
-      sums[i + 1] += factor * two.second;
-    }
-  }
-  for (std::size_t t = part.narrow; t < part.end; ++t) {
-    const float factor = factorOf(t);
-    for (std::size_t i = 0; i < kPatchLanes; i += 3, from += kFloatLanes) {
-      const ThreeLanes three = threeLanesAt(from);
-      sums[i] += factor * three.first;
-      sums[i + 1] += factor * three.second;
-      sums[i + 2] += factor * three.third;
-    }
-  }
+  for (std::size_t t = part.first; t < part.narrow; ++t)
+    from = addPacked<kWide>(from, factorOf(t), sums);
+  for (std::size_t t = part.narrow; t < part.end; ++t)
+    from = addPacked<kNarrow>(from, factorOf(t), sums);
   auto* const to = reinterpret_cast<float*>(&out_m[patch.first]);
   for (std::size_t i = 0; i * kFloatLanes < numbers; ++i)
     storeSome(sums[i], numbers - i * kFloatLanes, to + i * kFloatLanes);

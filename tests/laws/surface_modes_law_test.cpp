@@ -163,8 +163,8 @@ TEST(SurfaceModesLaw, NearThePlaneOfAnyTiltIsTheWholeBlend) {
     const BlendedBeat beat(balls.modes, shares, tilt);
     std::vector<SurfaceFrame> near(kFrames);
     for (std::size_t f = 0; f < kFrames; ++f) {
-      beat.frameAt(kFrames - 1 - f, near[kFrames - 1 - f]);
-      beat.frameAt(f, near[f]);  // memory of another frame
+      beat.frameAt((f + 1) % kFrames, near[f]);
+      beat.frameAt(f, near[f]);  // in the memory of another frame
     }
     int cut = 0, left_out = 0;
     for (int f = 0; f < kFrames; ++f) {
