@@ -12,8 +12,8 @@
 namespace echocine::fit {
 
 // Minus the log-likelihood. D is never 0: no loop is without noise.
-double viewCostOf(const PoseFound& found) {
-  return 0.5 * kLoopSamples * std::log(std::max(found.discrepancy, 1e-3));
+double viewCostOf(double discrepancy) {
+  return 0.5 * kLoopSamples * std::log(std::max(discrepancy, 1e-3));
 }
 
 ModelLoop FitSide::modelAt(const std::vector<double>& values, const PlaneTilt& tilt) const {
@@ -75,6 +75,13 @@ double FitCost::priorCost(const std::vector<double>& at) const {
   return cost;
 }
 
+double FitCost::viewCost(std::size_t view, const std::vector<double>& at,
+                         const PoseFound& found) const {
+  std::vector<double> own;
+  for (const std::size_t i : unknownsOf(view)) own.push_back(at[i]);
+  return viewCostOf(found.discrepancy - sides_[view].look->slope.of(own));
+}
+
 PoseFound FitCost::viewAt(std::size_t view, const std::vector<double>& at,
                           const PoseFound* from) const {
   const std::vector<double> values = searchedAt(at);
@@ -102,7 +109,7 @@ FitPlace FitCost::at(const std::vector<double>& at, const std::vector<PoseFound>
     for (std::size_t v = begin; v < end; ++v)
       out.found[v] = viewAt(v, at, from.empty() ? nullptr : &from[v]);
   });
-  for (const PoseFound& found : out.found) out.cost += viewCostOf(found);
+  for (std::size_t v = 0; v < sides_.size(); ++v) out.cost += viewCost(v, at, out.found[v]);
   return out;
 }
 
@@ -157,7 +164,8 @@ Quadratic FitCost::viewAround(std::size_t view, const PoseFound& from,
     parallelBlocks(places.size(), 1, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) {
         if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
-        out[i] = viewCostOf(viewAt(view, moved(middle, places[i]), &from));
+        const std::vector<double> at = moved(middle, places[i]);
+        out[i] = viewCost(view, at, viewAt(view, at, &from));
       }
     });
     return out;

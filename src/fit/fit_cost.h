@@ -8,6 +8,7 @@
 
 #include "fit/expected_edges.h"
 #include "fit/expected_greys.h"
+#include "fit/expected_slope.h"
 #include "fit/fit_journal.h"
 #include "fit/heart_family.h"
 #include "fit/heart_prior.h"
@@ -40,6 +41,7 @@ struct OwnSight {
 struct ExpectedLook {
   ExpectedEdges edges;
   ExpectedGreys greys;
+  ExpectedSlope slope;
 
   // None without own loops.
   std::optional<OwnSight> sight() const {
@@ -70,8 +72,8 @@ inline constexpr double kLoopSamples = 1000;
 // different people are a few degrees apart.
 inline constexpr double kTiltSd_deg = 4, kRotateSd_deg = 5;
 
-// A view's part of J, without its plane.
-double viewCostOf(const PoseFound& found);
+// A view's part of J, without its plane, for D or D' (Eq. 24).
+double viewCostOf(double discrepancy);
 
 // (14)  J = sum over views of N/2 ln D + (tilt/4)^2/2 + (rotate/5)^2/2,  minus ln p(dials)
 // with D at the pose of lowest D. If D is a share of variance, N/2 ln D is minus the log-likelihood
@@ -98,6 +100,8 @@ class FitCost {
 
   const HeartPrior& prior() const { return prior_; }
   double priorCost(const std::vector<double>& at) const;
+  // A view's part of J at a place, with the pose found there.
+  double viewCost(std::size_t view, const std::vector<double>& at, const PoseFound& found) const;
   // All dials, and the plane of this view.
   std::vector<std::size_t> unknownsOf(std::size_t view) const;
   // A view's part of J without the prior, by differences about middleOf() a place, in steps. The

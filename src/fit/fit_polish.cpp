@@ -118,7 +118,8 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
   }
   std::vector<Quadratic> views;
   for (std::size_t v = 0; v < cost.views(); ++v) {
-    for (std::size_t k = 0; k < values.size(); ++k) values[k].value = viewCostOf(used[k]->found[v]);
+    for (std::size_t k = 0; k < values.size(); ++k)
+      values[k].value = cost.viewCost(v, used[k]->at, used[k]->found[v]);
     views.push_back(regressionOf(n, cost.unknownsOf(v), values));
   }
   return cost.sumOf(views, middle);

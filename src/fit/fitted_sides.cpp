@@ -1,6 +1,7 @@
 #include "fit/fitted_sides.h"
 
 #include <algorithm>
+#include <array>
 
 #include "core/error.h"
 #include "fit/fit_polish.h"
@@ -24,43 +25,15 @@ bool exists(const std::map<std::string, double>& dials) {
   }
 }
 
-// The mean of Eq. 4's p(s) shows a part of a displacement: its edge has neighbours. Our choice.
-constexpr int kEdgeRounds = 3;
-
 // The seed of an own loop of a view.
 int seedOf(std::size_t view, int twin) {
   return 71 + static_cast<int>(view) + 100 * twin;
 }
 
-using OwnDiscrepancies = std::vector<const ModelDiscrepancy*>;  // of one view's own loops
-
 OwnDiscrepancies pointersTo(const std::deque<ModelDiscrepancy>& own) {
   OwnDiscrepancies out;
   for (const ModelDiscrepancy& one : own) out.push_back(&one);
   return out;
-}
-
-// The look of a model, `plain` without one, in its own loops, as far as a loop shows it.
-ExpectedLook lookIn(const OwnDiscrepancies& own, const ModelLoop& plain,
-                    const ModelDiscrepancy& loop, const FitPose& pose) {
-  ModelLoop model = plain;
-  const auto mapsOf = [&] {
-    std::vector<FitMap> maps;
-    for (const ModelDiscrepancy* one : own) maps.push_back(one->map(model, FitPose{}));
-    return maps;
-  };
-  ExpectedLook look{{model.frames.size(), model.structures.size()}, {}};
-  for (int round = 0; round < kEdgeRounds; ++round) {
-    look.edges.add(model, mapsOf());
-    model = plain;
-    look.edges.applyTo(model);
-  }
-  look.edges.scaleTo(plain, loop.map(plain, pose), pose.scale);
-  model = plain;
-  look.edges.applyTo(model);
-  look.greys = ExpectedGreys(model, mapsOf());
-  look.greys.scaleTo(model, loop.map(model, pose));
-  return look;
 }
 
 echo::SideOptions fromFirst() {
@@ -121,13 +94,33 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
       const ModelDiscrepancy own(loop, fromFirst(), plain);
       ModelLoop model = plain;
       lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
-      costs[i] += viewCostOf(discrepancies[v].at(model, pose));
+      costs[i] += viewCostOf(discrepancies[v].at(model, pose).discrepancy);
       monitor.tell({Task::settings, ++done, views.size() * scanners.size()});
     }
   }
   const auto lowest = std::min_element(costs.begin(), costs.end());
   rendered_as = scanners[static_cast<std::size_t>(lowest - costs.begin())];
   return true;
+}
+
+ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own,
+                                   const FitCost& cost, const FitPlace& place) const {
+  constexpr double kStep = 0.5;  // of an unknown; our choice
+  std::vector<std::array<double, 3>> places;
+  const std::vector<std::size_t> unknowns = cost.unknownsOf(view);
+  const auto movedBy = [&](std::size_t unknown, double step) {
+    std::vector<double> steps(place.at.size());
+    steps[unknown] = step;
+    return cost.moved(place.at, steps);
+  };
+  for (const std::size_t u : unknowns)
+    places.push_back({movedBy(u, -kStep)[u], place.at[u], movedBy(u, kStep)[u]});
+  return slopeIn(own, places, [&](const std::vector<double>& values) {
+    FitPlace at;
+    at.at = place.at;
+    for (std::size_t i = 0; i < unknowns.size(); ++i) at.at[unknowns[i]] = values[i];
+    return plainAt(view, cost, at);
+  });
 }
 
 bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
@@ -145,6 +138,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
           {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
     }
     found[v] = lookIn(pointersTo(own), plain, discrepancies[v], place.found[v].pose);
+    found[v].slope = slopeOf(v, pointersTo(own), cost, place);
   }
   looks = std::move(found);
   return true;
@@ -185,11 +179,11 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   // Edges are expected at the same distances as in the real loops, so that maps are comparable:
   // regions assume that a real loop shows all of the offsets of own loops.
   for (std::size_t v = 0; v < views.size(); ++v) {
-    auto& [edges, greys] = own.looks[v];
-    if (greys.empty()) continue;
+    ExpectedLook& look = own.looks[v];
+    if (look.greys.empty()) continue;
     ModelLoop model = own.plainAt(v, cost, best);
-    edges.applyTo(model);
-    greys.scaleTo(model, own.discrepancies[v].map(model, FitPose{}));
+    look.edges.applyTo(model);
+    look.greys.scaleTo(model, own.discrepancies[v].map(model, FitPose{}));
   }
   const FitCost again(own.refer(), cost.fixed(), tilt_deg, {journal, "own loops"});
   // By the same search as in the real loops, without the starts.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "fit/heart_fit.h"
+#include "fit/own_look.h"
 
 namespace echocine::fit {
 
@@ -36,6 +37,10 @@ struct FittedSides {
   ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
   // The same without the expected look.
   ModelLoop plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
+
+ private:
+  ExpectedSlope slopeOf(std::size_t view, const OwnDiscrepancies& own, const FitCost& cost,
+                        const FitPlace& place) const;
 };
 
 // A fit of the best heart's own rendered loops.
