@@ -5,6 +5,9 @@
 
 namespace echocine::fit {
 
+// Differences of D for Eq. 24, and of J for steps with it, in steps of an unknown. Our choice.
+inline constexpr double kSlopeStep = 0.5;
+
 // D is not lowest at the true heart: its terms are ratios, and a larger or faster heart also has
 // larger denominators. The slope of D at a heart's dials in the heart's own loops is this bias.
 //

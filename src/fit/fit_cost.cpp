@@ -184,6 +184,41 @@ std::vector<Quadratic> FitCost::viewsAround(const FitPlace& place,
   return out;
 }
 
+std::vector<double> FitCost::slopesAt(const FitPlace& place, const Monitor& monitor) const {
+  struct Difference {
+    std::size_t view, unknown;
+  };
+  std::vector<Difference> all;
+  for (std::size_t v = 0; v < views(); ++v)
+    for (const std::size_t u : unknownsOf(v)) all.push_back({v, u});
+  const auto slopeOf = [&](std::size_t unknown, const auto& cost) {
+    std::vector<double> steps(place.at.size());
+    const auto at = [&](double step) {
+      steps[unknown] = step;
+      const std::vector<double> moved_to = moved(place.at, steps);
+      return std::pair(moved_to[unknown], cost(moved_to));
+    };
+    const auto [low, below] = at(-kSlopeStep);
+    const auto [high, above] = at(kSlopeStep);
+    return (above - below) / (high - low);
+  };
+  std::vector<double> slopes(all.size());
+  parallelBlocks(all.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
+      const auto [v, u] = all[i];
+      slopes[i] = slopeOf(u, [&, v = v](const std::vector<double>& at) {
+        return viewCost(v, at, viewAt(v, at, &place.found[v]));
+      });
+    }
+  });
+  std::vector<double> out;
+  for (std::size_t u = 0; u < unknowns_.size(); ++u)
+    out.push_back(slopeOf(u, [&](const std::vector<double>& at) { return priorCost(at); }));
+  for (std::size_t i = 0; i < all.size(); ++i) out[all[i].unknown] += slopes[i];
+  return out;
+}
+
 // In units of the prior's SD no curvature is below 1.
 Quadratic FitCost::priorAround(const std::vector<double>& middle) const {
   const std::size_t n = unknowns_.size();

@@ -108,6 +108,9 @@ class FitCost {
   // mixed derivatives of earlier ones are kept; empty: all are computed. Runs in parallel.
   std::vector<Quadratic> viewsAround(const FitPlace& place, const std::vector<Quadratic>& mixed,
                                      const Monitor& monitor) const;
+  // Slopes of J in the units of the unknowns, by differences of kSlopeStep to either side. Runs in
+  // parallel.
+  std::vector<double> slopesAt(const FitPlace& place, const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;
   // sumOfViews() with the prior, in steps from a place. No curvature of the prior is below its

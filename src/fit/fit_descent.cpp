@@ -1,6 +1,7 @@
 #include "fit/fit_descent.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "fit/fit_progress.h"
@@ -64,6 +65,20 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
     out.stopped = true;
   }
   return out;
+}
+
+FitPlace newtonStep(const FitCost& cost, const FitDescent& from, const Monitor& monitor) {
+  const std::size_t n = from.best.at.size();
+  const std::vector<double> slopes = cost.slopesAt(from.best, monitor);
+  std::vector<double> steps(n);
+  double longest = 1;
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = 0; j < n; ++j) steps[i] -= from.covariance[i * n + j] * slopes[j];
+    steps[i] /= cost.unknowns()[i].step;
+    longest = std::max(longest, std::abs(steps[i]));
+  }
+  for (double& step : steps) step /= longest;
+  return cost.at(cost.moved(from.best.at, steps), from.best.found);
 }
 
 }  // namespace echocine::fit

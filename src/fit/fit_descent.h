@@ -21,4 +21,9 @@ inline constexpr int kMostFitRounds = 6;
 // cost. Stops without an error when the monitor requests it.
 FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor);
 
+// A step of Newton's method from the best place of a descent: slopes by differences, the covariance
+// of the descent. Shortened to at most one step of each unknown. J may rise. Throws JobError if the
+// monitor stops it. Precondition: a covariance.
+FitPlace newtonStep(const FitCost& cost, const FitDescent& from, const Monitor& monitor);
+
 }  // namespace echocine::fit

@@ -133,6 +133,20 @@ FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& midd
   return cost.at(cost.minimumNear(q, middle.at, farthest), middle.found);
 }
 
+// A regression through few places may be far too curved, and draws of the next round would then be
+// too close together to mend it: no SD becomes much smaller in a round. Correlations stay.
+void keepWide(const std::vector<double>& before, std::vector<double>& covariance) {
+  constexpr double kLeast = 0.6;  // of an SD; our choice
+  const auto n = static_cast<std::size_t>(std::lround(std::sqrt(covariance.size())));
+  for (std::size_t i = 0; i < n; ++i) {
+    const double variance = covariance[i * n + i],
+                 wider = kLeast * std::sqrt(before[i * n + i] / variance);
+    if (!(variance > 0 && wider > 1)) continue;
+    for (std::size_t j = 0; j < n; ++j)
+      covariance[i * n + j] *= wider, covariance[j * n + i] *= wider;
+  }
+}
+
 }  // namespace
 
 FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monitor,
@@ -151,7 +165,9 @@ FitDescent polishFit(const FitCost& cost, FitDescent from, const Monitor& monito
       places.push_back(minimumOf(cost, q, middle, axes, width));
       if (places.back().cost < middle.cost) from.best = places.back();
       if (lowest.cost < from.best.cost - kPlaceNoise) from.best = lowest;
-      from.covariance = cost.covariance(q);
+      std::vector<double> covariance = cost.covariance(q);
+      keepWide(from.covariance, covariance);
+      from.covariance = std::move(covariance);
       monitor.tell({Task::settings, round + 1, rounds});
     }
   } catch (const JobError&) {

@@ -5,7 +5,7 @@
 
 namespace echocine::fit {
 
-// Rounds to a minimum, and to tell which of several minima is the lower.
+// Rounds to a minimum, and to tell which of several minima is the lower. Our choice.
 inline constexpr std::size_t kPolishRounds = 6, kFirstPolishRounds = 3;
 // Pairs of places in a round, a third more places than a quadratic of a view's unknowns has
 // coefficients: 24 of 7 unknowns.

@@ -13,10 +13,10 @@ namespace echocine::fit {
 
 // In units of FitProgress. With own look, the look of own loops is chosen, the planes of the best
 // descent are mirrored in turn, those descents that end apart have a look and a polish, and the
-// best one has them twice.
+// best one has them twice and then takes steps, each with a new look.
 struct FitStages {
   double hearts, families, starts, descent, resamples, own;
-  double choice = 0, look = 0, polish_round = 0;
+  double choice = 0, look = 0, polish_round = 0, step = 0, settle = 0;
   std::size_t descents, mirrored = 0;
   FitStages(std::size_t views, std::size_t hearts_made, std::size_t dials,
             const HeartFitOptions& options)
@@ -31,6 +31,8 @@ struct FitStages {
       look = kOwnLoopUnits * n;
       choice = static_cast<double>(scannerLooks().size()) / kTwins * look;
       polish_round = n * kEvaluationUnits * 2 * static_cast<double>(polishPairs(unknowns));
+      step = n * kEvaluationUnits * 2 * static_cast<double>(unknowns);
+      settle = options.settling_steps * (look + step);
       if (options.tilt_deg > 0) mirrored = views;
     }
     resamples = descent * options.resamples;
@@ -41,8 +43,8 @@ struct FitStages {
     const auto all_descents = static_cast<double>(descents + mirrored);
     constexpr double kUsuallyApart = 2;  // ends of descents that have a look; measured
     return hearts + families + starts + descent * all_descents + choice +
-           (look + polish(kFirstPolishRounds)) * std::min(kUsuallyApart, all_descents) + look +
-           polish(kPolishRounds) + resamples + own;
+           (look + polish(kFirstPolishRounds)) * (std::min(kUsuallyApart, all_descents) + 1) +
+           settle + resamples + own;
   }
 };
 

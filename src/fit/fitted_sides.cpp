@@ -36,9 +36,11 @@ OwnDiscrepancies pointersTo(const std::deque<ModelDiscrepancy>& own) {
   return out;
 }
 
-echo::SideOptions fromFirst() {
+// The beat of own loops is that of the model.
+echo::SideOptions beatOf(const ModelLoop& model) {
   echo::SideOptions side;
   side.ed_frame = 0;
+  if (model.systole > 0) side.es_frame = model.systole * kFitFrames;
   return side;
 }
 
@@ -91,7 +93,7 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
       const echo::EchoLoop loop = ownLoops(cost.dialsAt(place.at), views[v],
                                            cost.tiltAt(place.at, v), kFitFrames, scanners[i])
                                       .loop(seedOf(v, 2 * kTwins));
-      const ModelDiscrepancy own(loop, fromFirst(), plain);
+      const ModelDiscrepancy own(loop, beatOf(plain), plain);
       ModelLoop model = plain;
       lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
       costs[i] += viewCostOf(discrepancies[v].at(model, pose).discrepancy);
@@ -105,7 +107,6 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
 
 ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own,
                                    const FitCost& cost, const FitPlace& place) const {
-  constexpr double kStep = 0.5;  // of an unknown; our choice
   std::vector<std::array<double, 3>> places;
   const std::vector<std::size_t> unknowns = cost.unknownsOf(view);
   const auto movedBy = [&](std::size_t unknown, double step) {
@@ -114,7 +115,7 @@ ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own
     return cost.moved(place.at, steps);
   };
   for (const std::size_t u : unknowns)
-    places.push_back({movedBy(u, -kStep)[u], place.at[u], movedBy(u, kStep)[u]});
+    places.push_back({movedBy(u, -kSlopeStep)[u], place.at[u], movedBy(u, kSlopeStep)[u]});
   return slopeIn(own, places, [&](const std::vector<double>& values) {
     FitPlace at;
     at.at = place.at;
@@ -124,7 +125,7 @@ ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own
 }
 
 bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
-                                const FitPlace& place, const Monitor& monitor) {
+                                const FitPlace& place, const Monitor& monitor, int round) {
   std::vector<ExpectedLook> found(views.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop plain = plainAt(v, cost, place);
@@ -133,7 +134,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
                                       kFitFrames, rendered_as);
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!monitor.keep_going()) return false;
-      own.emplace_back(rendered.loop(seedOf(v, kTwins + twin)), fromFirst(), plain);
+      own.emplace_back(rendered.loop(seedOf(v, (1 + round) * kTwins + twin)), beatOf(plain), plain);
       monitor.tell(
           {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
     }
@@ -163,7 +164,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!monitor.keep_going()) return std::nullopt;
       loops[v].push_back(rendered.loop(seedOf(v, twin)));
-      (twin == 0 ? own.discrepancies : others[v]).emplace_back(loops[v].back(), fromFirst(), model);
+      (twin == 0 ? own.discrepancies : others[v])
+          .emplace_back(loops[v].back(), beatOf(model), model);
     }
   }
   for (std::size_t v = 0; v < views.size(); ++v) {

@@ -30,9 +30,9 @@ struct FittedSides {
                   const Monitor& monitor);
   // Measures the look of each view's model at a place, in kTwins own loops. Costs of the earlier
   // look are invalid then. False if the monitor stopped it; nothing has changed then. Throws
-  // SceneError for an impossible heart. Precondition: the place has poses.
+  // SceneError for an impossible heart. Precondition: the place has poses. Rounds have other loops.
   bool expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
-                     const FitPlace& place, const Monitor& monitor);
+                     const FitPlace& place, const Monitor& monitor, int round = 0);
   // A view's model at a place of the cost, as FitCost evaluates it.
   ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
   // The same without the expected look.

@@ -53,6 +53,7 @@ void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& option
   checkFitViews(viewsOf(loops));
   if (options.starts < 1 || options.descents < 1)
     throw SceneError("fit: starts and descents must be 1 or more");
+  if (options.settling_steps < 0) throw SceneError("fit: settling_steps must be 0 or more");
   checkTilt(options.tilt_deg);
   checkResamples(options.resamples);
   for (const FitLoop& one : loops) checkMoves(one);

@@ -36,8 +36,11 @@ struct HeartFitOptions {
   // Fits the found heart's own rendered loops too: for regions and own_error.
   bool own_loops = true;
   // Measures the look of found hearts in their own rendered loops, and polishes the fit with it
-  // (Eqs. 20 to 22). Takes four times as long. None: with three loops.
+  // (Eqs. 20 to 22 and 24). Takes five times as long. None: with three loops.
   std::optional<bool> own_look{};
+  // Last steps of the best heart, each with a look of its own. A step leaves up to 0.8 of an error
+  // in wall thickness, and less of others: the look moves with the heart. Our choice.
+  int settling_steps = 6;
   bool other_views = true;  // compares the found heart in other views (view_check.h)
   int resamples = 0;  // blocks of the beat that are left out in turn (fit_resamples.h); 0: none
   std::filesystem::path heart_cache{};  // folder of computed hearts (HeartCache); empty: none

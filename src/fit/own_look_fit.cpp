@@ -19,6 +19,8 @@ struct Looked {
   std::string stage;
 };
 
+constexpr int kMeanSteps = 3;  // of the last steps; our choice
+
 class LookRounds {
  public:
   LookRounds(FittedSides& sides, const std::vector<heart::View>& views,
@@ -36,20 +38,51 @@ class LookRounds {
   }
 
   // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
-  bool add(Looked& one, std::string stage, std::size_t rounds) {
+  bool add(Looked& one, std::string stage) {
     FitDescent& descent = one.descent;
-    makePossible(plain_, descent.best.at);
-    if (!sides_.expectOwnLook(plain_, views_, descent.best, progress_.next(stages_.look)))
-      return false;
     one.stage = std::move(stage);
-    const FitCost cost = costOf(one.stage);
-    descent.best = cost.at(descent.best.at, descent.best.found);
-    descent = polishFit(cost, std::move(descent), progress_.next(stages_.polish(rounds)), rounds);
-    one.looks = sides_.looks;
+    if (!measure(one, 0)) return false;
+    descent = polishFit(costOf(one.stage), std::move(descent),
+                        progress_.next(stages_.polish(kFirstPolishRounds)), kFirstPolishRounds);
     return !descent.stopped;
   }
 
+  // Newton's method with the look of each place, in loops of its own. The result is the mean of the
+  // last places: their noise differs. False if stopped.
+  bool settle(Looked& one) {
+    FitDescent& descent = one.descent;
+    const int steps = options_.settling_steps, last = std::min(steps, kMeanSteps);
+    if (steps == 0) return true;
+    std::vector<double> mean(descent.best.at.size());
+    for (int step = 1; step <= steps; ++step) {
+      one.stage = fmt::format("own look, step {}", step);
+      if (!measure(one, step)) return false;
+      const Monitor monitor = progress_.next(stages_.step);
+      try {
+        descent.best = newtonStep(costOf(one.stage), descent, monitor);
+      } catch (const JobError&) {
+        if (monitor.keep_going()) throw;
+        return false;
+      }
+      for (std::size_t i = 0; i < mean.size() && step > steps - last; ++i)
+        mean[i] += descent.best.at[i] / last;
+    }
+    descent.best = costOf(one.stage).at(mean, descent.best.found);
+    return true;
+  }
+
  private:
+  // The look of the descent's heart, and J with it. False if stopped.
+  bool measure(Looked& one, int round) {
+    FitPlace& best = one.descent.best;
+    makePossible(plain_, best.at);
+    if (!sides_.expectOwnLook(plain_, views_, best, progress_.next(stages_.look), round))
+      return false;
+    one.looks = sides_.looks;
+    best = costOf(one.stage).at(best.at, best.found);
+    return true;
+  }
+
   FittedSides& sides_;
   const std::vector<heart::View>& views_;
   const HeartFitOptions& options_;
@@ -97,14 +130,13 @@ bool addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
               std::vector<Looked>& all) {
   for (const FitDescent& descent : descents) {
     all.push_back({descent, {}, {}});
-    if (!rounds.add(all.back(), fmt::format("own look {}", all.size()), kFirstPolishRounds))
-      return false;
+    if (!rounds.add(all.back(), fmt::format("own look {}", all.size()))) return false;
   }
   std::stable_sort(all.begin(), all.end(), [](const Looked& a, const Looked& b) {
     return a.descent.best.cost < b.descent.best.cost;
   });
   const double before = all.front().descent.best.cost;
-  if (!rounds.add(all.front(), "own look again", kPolishRounds)) return false;
+  if (!rounds.add(all.front(), "own look again") || !rounds.settle(all.front())) return false;
   // J of the others is comparable with that of the first round.
   const double change = all.front().descent.best.cost - before;
   for (std::size_t i = 1; i < all.size(); ++i) all[i].descent.best.cost += change;

@@ -46,6 +46,7 @@ HeartFitOptions ownLookOptions(std::vector<std::string> searched, int starts) {
   options.searched = std::move(searched);
   options.tilt_deg = 0;
   options.own_look = true;
+  options.settling_steps = 1;
   options.starts = starts;
   options.descents = 1;
   return options;
@@ -197,6 +198,7 @@ TEST(HeartFit, TheOwnLookFindsTheSideOfATilt) {
     options.searched = {"ef"};
     options.starts = options.descents = 1;
     options.own_look = true;
+    options.settling_steps = 0;
     options.own_loops = options.other_views = false;
     const HeartFit fit = fitHeart({{View::a2c, heart.loops[1], fromFirst()}}, options);
     ASSERT_TRUE(fit.ef);
