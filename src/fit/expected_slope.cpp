@@ -14,7 +14,7 @@ double ExpectedSlope::of(const std::vector<double>& at) const {
   CHECK_EQ(at.size(), at_.size());
   double sum = 0;
   for (std::size_t i = 0; i < at.size(); ++i) sum += slopes_[i] * (at[i] - at_[i]);
-  return sum;
+  return shown_ * sum;
 }
 
 }  // namespace echocine::fit

@@ -35,6 +35,8 @@ struct FitPlace {
 // Eq. 20 and c of Eq. 21.
 struct OwnSight {
   double edges = 0, greys = 0;
+
+  double both() const { return edges * greys; }
 };
 
 // Deviations that own loops of a heart show beyond its tissues and their boundaries.

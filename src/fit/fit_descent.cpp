@@ -67,7 +67,8 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
   return out;
 }
 
-FitPlace newtonStep(const FitCost& cost, const FitDescent& from, const Monitor& monitor) {
+FitPlace newtonStep(const FitCost& cost, const FitDescent& from, double share,
+                    const Monitor& monitor) {
   const std::size_t n = from.best.at.size();
   const std::vector<double> slopes = cost.slopesAt(from.best, monitor);
   std::vector<double> steps(n);
@@ -77,7 +78,7 @@ FitPlace newtonStep(const FitCost& cost, const FitDescent& from, const Monitor& 
     steps[i] /= cost.unknowns()[i].step;
     longest = std::max(longest, std::abs(steps[i]));
   }
-  for (double& step : steps) step /= longest;
+  for (double& step : steps) step *= share / longest;
   return cost.at(cost.moved(from.best.at, steps), from.best.found);
 }
 

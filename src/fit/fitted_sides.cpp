@@ -140,6 +140,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
     }
     found[v] = lookIn(pointersTo(own), plain, discrepancies[v], place.found[v].pose);
     found[v].slope = slopeOf(v, pointersTo(own), cost, place);
+    found[v].slope.scaleTo(found[v].sight()->both());
   }
   looks = std::move(found);
   return true;

@@ -19,6 +19,13 @@ struct Looked {
   std::string stage;
 };
 
+// Mean of q c over the views.
+double meanShown(const std::vector<ExpectedLook>& looks) {
+  double sum = 0;
+  for (const ExpectedLook& look : looks) sum += look.sight().value_or(OwnSight{}).both();
+  return sum / static_cast<double>(looks.size());
+}
+
 constexpr int kMeanSteps = 3;  // of the last steps; our choice
 
 class LookRounds {
@@ -47,8 +54,8 @@ class LookRounds {
     return !descent.stopped;
   }
 
-  // Newton's method with the look of each place, in loops of its own. The result is the mean of the
-  // last places: their noise differs. False if stopped.
+  // Newton's method with the look of each place, in loops of its own, as far as the loops show it.
+  // The result is the mean of the last places: their noise differs. False if stopped.
   bool settle(Looked& one) {
     FitDescent& descent = one.descent;
     const int steps = options_.settling_steps, last = std::min(steps, kMeanSteps);
@@ -59,7 +66,7 @@ class LookRounds {
       if (!measure(one, step)) return false;
       const Monitor monitor = progress_.next(stages_.step);
       try {
-        descent.best = newtonStep(costOf(one.stage), descent, monitor);
+        descent.best = newtonStep(costOf(one.stage), descent, meanShown(one.looks), monitor);
       } catch (const JobError&) {
         if (monitor.keep_going()) throw;
         return false;

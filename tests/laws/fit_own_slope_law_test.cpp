@@ -17,10 +17,12 @@ namespace {
 using namespace support;
 
 TEST(FitOwnSlope, ASlopeIsAStraightLineThroughItsPlace) {
-  const ExpectedSlope slope({0.5, 120}, {0.4, -0.001});
+  ExpectedSlope slope({0.5, 120}, {0.4, -0.001});
   EXPECT_EQ(slope.of({0.5, 120}), 0);
   EXPECT_NEAR(slope.of({0.6, 140}), 0.04 - 0.02, 1e-15);
   EXPECT_NEAR(slope.of({0.4, 100}), -0.04 + 0.02, 1e-15);
+  slope.scaleTo(0.25);
+  EXPECT_NEAR(slope.of({0.6, 140}), 0.25 * (0.04 - 0.02), 1e-15);
   EXPECT_EQ(ExpectedSlope().of({0.6, 140}), 0);
 }
 
