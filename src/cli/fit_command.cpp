@@ -105,7 +105,7 @@ FitCommand::FitCommand(CLI::App& app) {
       ->capture_default_str();
   CLI::Option* own_look = command->add_flag(
       "--own-look", own_look_,
-      "Expect the edges and grey levels of the found heart's rendered loops: four times the time; "
+      "Expect the edges and grey levels of the found heart's rendered loops: five times the time; "
       "default with three loops");
   command->add_flag("--no-own-look", no_own_look_, "Expect those of the model alone")
       ->excludes(own_look);

@@ -13,8 +13,8 @@ inline constexpr double kSlopeStep = 0.5;
 //
 // (24)  D'(x) = D(x) - q c s (x - x_0)
 // x: unknowns of a view; x_0: those of the heart whose look is expected; s: slope of D at x_0, mean
-// over own loops; q, c: of Eqs. 20 and 21, because s says nothing of a loop that does not look like
-// own loops. Limit: s is a straight line, so x stays near x_0.
+// over own loops; q, c: of Eqs. 20 and 21, because s does not apply to a loop that looks different.
+// Limit: s is a straight line, so x stays near x_0.
 class ExpectedSlope {
  public:
   // None: D' is D.
