@@ -28,8 +28,6 @@ class ExpectedSlope {
   // q c s (x - x_0); 0 without slopes. `at` has the unknowns of the view in the same order.
   double of(const std::vector<double>& at) const;
 
-  bool empty() const { return slopes_.empty(); }
-
  private:
   std::vector<double> at_, slopes_;
   double shown_ = 1;

@@ -184,6 +184,16 @@ std::vector<Quadratic> FitCost::viewsAround(const FitPlace& place,
   return out;
 }
 
+std::array<std::vector<double>, 2> FitCost::besideIn(std::size_t unknown,
+                                                     const std::vector<double>& at) const {
+  std::vector<double> steps(at.size());
+  const auto movedBy = [&](double step) {
+    steps[unknown] = step;
+    return moved(at, steps);
+  };
+  return {movedBy(-kSlopeStep), movedBy(kSlopeStep)};
+}
+
 std::vector<double> FitCost::slopesAt(const FitPlace& place, const Monitor& monitor) const {
   struct Difference {
     std::size_t view, unknown;
@@ -192,15 +202,8 @@ std::vector<double> FitCost::slopesAt(const FitPlace& place, const Monitor& moni
   for (std::size_t v = 0; v < views(); ++v)
     for (const std::size_t u : unknownsOf(v)) all.push_back({v, u});
   const auto slopeOf = [&](std::size_t unknown, const auto& cost) {
-    std::vector<double> steps(place.at.size());
-    const auto at = [&](double step) {
-      steps[unknown] = step;
-      const std::vector<double> moved_to = moved(place.at, steps);
-      return std::pair(moved_to[unknown], cost(moved_to));
-    };
-    const auto [low, below] = at(-kSlopeStep);
-    const auto [high, above] = at(kSlopeStep);
-    return (above - below) / (high - low);
+    const auto [low, high] = besideIn(unknown, place.at);
+    return (cost(high) - cost(low)) / (high[unknown] - low[unknown]);
   };
   std::vector<double> slopes(all.size());
   parallelBlocks(all.size(), 1, [&](std::size_t begin, std::size_t end) {

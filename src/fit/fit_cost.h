@@ -1,6 +1,7 @@
 #pragma once
 // The cost of a heart in one to three views: one function for starts, steps, stop and intervals.
 
+#include <array>
 #include <map>
 #include <optional>
 #include <string>
@@ -110,8 +111,10 @@ class FitCost {
   // mixed derivatives of earlier ones are kept; empty: all are computed. Runs in parallel.
   std::vector<Quadratic> viewsAround(const FitPlace& place, const std::vector<Quadratic>& mixed,
                                      const Monitor& monitor) const;
-  // Slopes of J in the units of the unknowns, by differences of kSlopeStep to either side. Runs in
-  // parallel.
+  // Values of the unknowns with one of them kSlopeStep lower, and higher, within the limits.
+  std::array<std::vector<double>, 2> besideIn(std::size_t unknown,
+                                              const std::vector<double>& at) const;
+  // Slopes of J in the units of the unknowns, by differences between besideIn(). Runs in parallel.
   std::vector<double> slopesAt(const FitPlace& place, const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;

@@ -109,13 +109,10 @@ ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own
                                    const FitCost& cost, const FitPlace& place) const {
   std::vector<std::array<double, 3>> places;
   const std::vector<std::size_t> unknowns = cost.unknownsOf(view);
-  const auto movedBy = [&](std::size_t unknown, double step) {
-    std::vector<double> steps(place.at.size());
-    steps[unknown] = step;
-    return cost.moved(place.at, steps);
-  };
-  for (const std::size_t u : unknowns)
-    places.push_back({movedBy(u, -kSlopeStep)[u], place.at[u], movedBy(u, kSlopeStep)[u]});
+  for (const std::size_t u : unknowns) {
+    const auto [low, high] = cost.besideIn(u, place.at);
+    places.push_back({low[u], place.at[u], high[u]});
+  }
   return slopeIn(own, places, [&](const std::vector<double>& values) {
     FitPlace at;
     at.at = place.at;

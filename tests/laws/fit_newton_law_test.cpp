@@ -9,6 +9,7 @@
 #include "fit/fit_descent.h"
 #include "fit/own_loop.h"
 #include "fit/searched_dials.h"
+#include "support/drawn_heart.h"
 
 namespace echocine::fit {
 namespace {
@@ -27,13 +28,8 @@ struct OneDial {
                heart::View::a4c, {}),
         loop(ownLoops({{"ef", 0.5}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
                  .loop(5)),
-        discrepancy(loop, startOf(), family.at({0.5}, {}, Focus::left_ventricle)) {}
+        discrepancy(loop, support::fromTheStart(), family.at({0.5}, {}, Focus::left_ventricle)) {}
 
-  static echo::SideOptions startOf() {
-    echo::SideOptions side;
-    side.ed_frame = 0;
-    return side;
-  }
   FitCost cost() const { return {{{&family, &discrepancy, &look}}, fixed, 0}; }
 };
 
