@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
-"""Draws the pictures of this folder again: loop.gif, views.png, probes.png, truth.png, report.png and study.png.
+"""Draws the pictures of this folder again: loop.gif, views.png, looks.png, probes.png, truth.png, report.png and study.png.
 
     examples/beating_heart/pictures.py [--program build/release/echocine] [--work FOLDER] [NAME ...]
 
-NAME is a picture without its ending; without names all are drawn. study.png takes minutes.
+NAME is a picture without its ending; without names all are drawn. looks.png and study.png take minutes.
 Needs ffmpeg and chromium. Renders are kept in FOLDER and used again.
 """
 
@@ -15,6 +15,7 @@ import shutil
 import subprocess
 
 HERE = pathlib.Path(__file__).resolve().parent
+LOOKS = ["scanner", "smooth", "contrast", "sharp", "portable", "faint"]
 VIEWS = ["a4c", "a2c", "a3c", "plax", "psax-base", "psax-mid", "psax-apex", "subcostal"]
 CATHETER = """[probe]
 kind = "radial"
@@ -121,21 +122,35 @@ class Pictures:
         run("ffmpeg", "-v", "error", "-y", "-i", paper / "cine.avi", "-i",
             self.shipped() / "cine.avi", "-filter_complex", GIF, HERE / "loop.gif")
 
-    def views(self):
-        inputs = []
-        for view in VIEWS:
-            heart = self.made(f"heart_{view}", "heart", "--view", view)
-            for frame in (0, END_SYSTOLE):
-                loop = self.made(f"{view}_{frame}", "render", heart / "scene.toml", "--frames",
-                                 f"{frame}:{frame + 1}")
-                inputs += ["-i", loop / "cine.avi"]
-        count = 2 * len(VIEWS)
-        small = "".join(f"[{k}]scale=400:300:flags=area,format=gray[s{k}];" for k in range(count))
-        places = "|".join(f"{400 * (k % 4)}_{300 * (k // 4)}" for k in range(count))
-        tiles = "".join(f"[s{k}]" for k in range(count))
+    def instants(self, view, look):
+        """Cines of one frame: end-diastole and end-systole."""
+        heart = self.made(f"heart_{view}_{look}", "heart", "--view", view, "--look", look)
+        return [self.made(f"{view}_{look}_{frame}", "render", heart / "scene.toml", "--frames",
+                          f"{frame}:{frame + 1}") / "cine.avi" for frame in (0, END_SYSTOLE)]
+
+    def sheet(self, cines, crop, width, height, columns, name):
+        inputs = [part for cine in cines for part in ("-i", cine)]
+        small = "".join(f"[{k}]{crop}scale={width}:{height}:flags=area,format=gray[s{k}];"
+                        for k in range(len(cines)))
+        places = "|".join(f"{width * (k % columns)}_{height * (k // columns)}"
+                          for k in range(len(cines)))
+        tiles = "".join(f"[s{k}]" for k in range(len(cines)))
         run("ffmpeg", "-v", "error", "-y", *inputs, "-filter_complex",
-            f"{small}{tiles}xstack=inputs={count}:layout={places},format=gray", "-frames:v", "1",
-            HERE / "views.png")
+            f"{small}{tiles}xstack=inputs={len(cines)}:layout={places},format=gray", "-frames:v",
+            "1", HERE / name)
+
+    def views(self):
+        cines = [cine for view in VIEWS for cine in self.instants(view, "scanner")]
+        self.sheet(cines, "", 400, 300, 4, "views.png")
+
+    def looks(self):
+        """Two rows for each look: end-diastole and end-systole of all views."""
+        cines = []
+        for look in LOOKS:
+            both = [self.instants(view, look) for view in VIEWS]
+            cines += [one[k] for k in (0, 1) for one in both]
+        left, top, width, height = CROP
+        self.sheet(cines, f"crop={width}:{height}:{left}:{top},", 216, 152, len(VIEWS), "looks.png")
 
     def probes(self):
         """Transoesophageal, and a catheter in the left atrium."""
@@ -182,7 +197,7 @@ def data_url(path):
 
 
 def main():
-    names = ["loop", "views", "probes", "truth", "report", "study"]
+    names = ["loop", "views", "looks", "probes", "truth", "report", "study"]
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("names", nargs="*", metavar="NAME", help=", ".join(names))
     parser.add_argument("--program", type=pathlib.Path, default="build/release/echocine")

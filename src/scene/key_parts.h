@@ -84,9 +84,10 @@ inline constexpr KeyUse kWithCurve WITH("kind = \"curvilinear\" | \"radial\"",
 inline constexpr KeyUse kWithWidth WITH("kind = \"linear\"", !o.scene->probe.isFan());
 inline constexpr KeyUse kClosed WITH("membrane = false: a membrane encloses nothing",
                                      !o.structure->membrane);
-inline constexpr KeyUse kWithQuality
-    WITH("look = \"scanner\" | \"smooth\" | \"contrast\" | \"sharp\" | \"portable\"",
-         isScanner(o.scene->signal.look));
+inline constexpr KeyUse kWithQuality WITH(
+    "look = \"scanner\" | \"smooth\" | \"contrast\" | \"sharp\" | \"portable\" | "
+    "\"faint\"",
+    isScanner(o.scene->signal.look));
 inline constexpr KeyUse kWithNominal WITH("tgc = \"nominal\"", o.scene->signal.tgc == Tgc::nominal);
 inline constexpr KeyUse kWithTable WITH("tgc = \"table\"", o.scene->signal.tgc == Tgc::table);
 inline constexpr KeyUse kWithFixed WITH("beam_width = \"fixed\"",

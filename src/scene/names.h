@@ -41,7 +41,7 @@ struct NamesOf<Look> {
   static constexpr Named<Look> kAll[] = {{Look::paper, "paper"},       {Look::clean, "clean"},
                                          {Look::scanner, "scanner"},   {Look::smooth, "smooth"},
                                          {Look::contrast, "contrast"}, {Look::sharp, "sharp"},
-                                         {Look::portable, "portable"}};
+                                         {Look::portable, "portable"}, {Look::faint, "faint"}};
 };
 
 template <>

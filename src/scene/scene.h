@@ -57,7 +57,7 @@ enum class BeamWidth { focused, profile, fixed, none };
 
 // Appearance of a picture: the paper's; with speckle and a scanner's grey map; those of several
 // scanners, with artefacts. A look only sets other defaults (looks.h).
-enum class Look { paper, clean, scanner, smooth, contrast, sharp, portable };
+enum class Look { paper, clean, scanner, smooth, contrast, sharp, portable, faint };
 constexpr bool isScanner(Look look) {
   return look != Look::paper && look != Look::clean;
 }

@@ -74,7 +74,8 @@ void run(int hearts, bool fitted) {
     for (const auto& [other, name] : {std::pair{Look::smooth, "smooth"},
                                       {Look::contrast, "contrast"},
                                       {Look::sharp, "sharp"},
-                                      {Look::portable, "portable"}})
+                                      {Look::portable, "portable"},
+                                      {Look::faint, "faint"}})
       look(fmt::format("none, look {}", name), sceneIn(Defect::none, other));
   }
   for (const auto& [what, count] : counts)

@@ -6,11 +6,8 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 
 #include "core/units.h"
-#include "dataset/draws.h"
-#include "dataset/spec.h"
 #include "frame/simulator.h"
 #include "motion/heart/heart_scene.h"
 #include "scene/grey_curve.h"
@@ -100,6 +97,12 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
   return greys;
 }
 
+// Greys of a look relative to clinical stills: the loop that "faint" imitates has little gain. Its
+// 95 % quantile is 80 to 87, their median 161 to 207.
+double brightnessOf(Look look) {
+  return look == Look::faint ? 0.5 : 1;
+}
+
 // Samples near the probe outnumber their pixels, so shares are those of beam space. Black, white:
 // stills of one scanner and "smooth" have no grey under 10; loops of others have 5 to 51 % there.
 TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
@@ -116,19 +119,20 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
                          static_cast<double>(greys.all.size());
     std::printf("  %-8s LV %.0f LA %.0f RA %.0f wall %.0f p99.9 %.0f black %.3f\n", name.c_str(),
                 lv, la, ra, wall, white, black);
-    EXPECT_GT(wall, 65) << name;
-    EXPECT_LT(wall, 130) << name;
+    const double full = brightnessOf(look);
+    EXPECT_GT(wall, 65 * full) << name;
+    EXPECT_LT(wall, 130 * full) << name;
     // Clinical stills at end-systole: 30 or more in 90 % of them (288 patients of CAMUS).
-    EXPECT_GT(wall - lv, 30) << name;
+    EXPECT_GT(wall - lv, 30 * full) << name;
     // 18 grey levels lie between atrium and ventricle if the gain is that of soft tissue.
     EXPECT_LT(la - lv, 16) << name;
     EXPECT_LT(ra - lv, 12) << name;
-    EXPECT_GT(white, 165) << name;
+    EXPECT_GT(white, 165 * full) << name;
     if (look == Look::smooth) {
       EXPECT_LT(black, 0.01) << name;
     } else {
       EXPECT_GT(black, 0.05) << name;
-      EXPECT_LT(black, 0.51) << name;
+      EXPECT_LT(black, 0.51) << name;  // as in those loops
     }
   }
 }
@@ -169,7 +173,7 @@ TEST(LooksLaw, TheHeartLiesInGreyTissue) {
                    wall = quantileOf(greys.by_role.at(Role::lv_wall), 0.5);
       std::printf("  %-8s blood %.0f, beside the sac %.0f, wall %.0f\n", name.c_str(), blood, coat,
                   wall);
-      EXPECT_GT(coat, blood + 50) << name;
+      EXPECT_GT(coat, blood + 50 * brightnessOf(look)) << name;
       EXPECT_LT(coat, wall + 45) << name;
     }
   }
@@ -277,21 +281,6 @@ TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
                   pericardium);
       EXPECT_GT(pericardium, wall + 15) << edv_ml << " mL, " << time_s << " s";
     }
-}
-
-TEST(LooksLaw, DatasetsDrawOverLooks) {
-  std::string names;
-  for (const Look look : scannerLooks()) names += "\"" + std::string(nameOf(look)) + "\", ";
-  const dataset::Spec spec = dataset::parseSpec(
-      "hearts = 60\nviews = [\"a4c\"]\n[scene.signal]\nlook = { choice = [" + names +
-          "] }\nquality = { choice = [\"good\", \"medium\", \"poor\"] }\n",
-      "spec.toml");
-  std::set<std::string> drawn;
-  for (int i = 0; i < 60; ++i) {
-    const auto values = dataset::drawOf(spec, i, 0).valuesOf(0);
-    drawn.insert(std::get<std::string>(values.at("scene.signal.look")));
-  }
-  EXPECT_EQ(drawn.size(), 5u);
 }
 
 }  // namespace

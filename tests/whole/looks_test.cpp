@@ -4,10 +4,16 @@
 
 #include <optional>
 #include <set>
+#include <string>
+#include <variant>
 
 #include "core/parallel.h"
+#include "dataset/draws.h"
+#include "dataset/spec.h"
 #include "frame/simulator.h"
 #include "plan/effect_plan.h"
+#include "scene/looks.h"
+#include "scene/names.h"
 #include "scene/scene_json.h"
 #include "support/loop_scene.h"
 
@@ -124,7 +130,7 @@ TEST_F(Looks, LeaveTheReceivedIntensitiesOfThePlaneAlone) {
 
 TEST_F(Looks, ScannersDifferAndTakeQuality) {
   std::set<double> ranges, pulses, smoothings;
-  for (const char* look : {"scanner", "smooth", "contrast", "sharp", "portable"}) {
+  for (const char* look : {"scanner", "smooth", "contrast", "sharp", "portable", "faint"}) {
     const std::string quoted = std::string("\"") + look + "\"";
     const Scene scene = sceneWith({{"look", quoted}});
     for (const Effect effect : kArtefacts) EXPECT_TRUE(on(scene, effect)) << look;
@@ -136,9 +142,9 @@ TEST_F(Looks, ScannersDifferAndTakeQuality) {
     pulses.insert(scene.signal.pulse_cycles);
     smoothings.insert(scene.speckle.smoothing_m);
   }
-  EXPECT_EQ(ranges.size(), 5u);
+  EXPECT_EQ(ranges.size(), 6u);
   EXPECT_EQ(pulses.size(), 3u);
-  EXPECT_EQ(smoothings.size(), 5u);
+  EXPECT_EQ(smoothings.size(), 6u);
 }
 
 TEST_F(Looks, QualityIsOfScannersAlone) {
@@ -146,6 +152,21 @@ TEST_F(Looks, QualityIsOfScannersAlone) {
   text.signal["quality"] = "\"good\"";
   EXPECT_NE(refusalOf(text.text()).find("quality"), std::string::npos);
   EXPECT_NE(refusalOf(text.text()).find("scanner"), std::string::npos);
+}
+
+TEST(LooksOfDatasets, AreAllDrawn) {
+  std::string names;
+  for (const Look look : scannerLooks()) names += "\"" + std::string(nameOf(look)) + "\", ";
+  const dataset::Spec spec = dataset::parseSpec(
+      "hearts = 60\nviews = [\"a4c\"]\n[scene.signal]\nlook = { choice = [" + names +
+          "] }\nquality = { choice = [\"good\", \"medium\", \"poor\"] }\n",
+      "spec.toml");
+  std::set<std::string> drawn;
+  for (int i = 0; i < 60; ++i) {
+    const auto values = dataset::drawOf(spec, i, 0).valuesOf(0);
+    drawn.insert(std::get<std::string>(values.at("scene.signal.look")));
+  }
+  EXPECT_EQ(drawn.size(), scannerLooks().size());
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ TEST_F(SelfDescription, CompletionOffersTheValuesOfChoices) {
   EXPECT_EQ(offered(bash, "heart", "--view"), views);
   EXPECT_EQ(offered(bash, "compare", "--view"), views);
   EXPECT_EQ(offered(bash, "heart", "--look"),
-            "paper clean scanner smooth contrast sharp portable\n");
+            "paper clean scanner smooth contrast sharp portable faint\n");
   EXPECT_EQ(offered(bash, "render", "--preset"), "draft standard fine reference\n");
   EXPECT_EQ(offered(bash, "plan", "--preset"), "draft standard fine reference\n");
   const std::string zsh = text("_echocine");

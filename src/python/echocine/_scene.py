@@ -460,7 +460,7 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
             (amplitude, delay in ms).
         keep_volumes: the ejection fraction stays as dialled, and healthy segments do the work of still ones.
         keyframes: keyframes a beat, 4 to 100.
-        look: how its pictures look: "paper", "clean", or a scanner: "scanner", "smooth", "contrast", "sharp", "portable".
+        look: how its pictures look: "paper", "clean", or a scanner: "scanner", "smooth", "contrast", "sharp", "portable", "faint".
         even: keyframes evenly spaced, not by how much moves.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
