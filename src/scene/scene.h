@@ -80,6 +80,7 @@ struct SignalSettings {
   std::optional<double> reference_intensity;  // relative to I_S; otherwise the percentile
   double reference_percentile = 99.5;         // of all samples of the loop, without the near field
   double gain_db = 0;                         // of the picture: lowers the intensity shown as white
+  double examiner_gain_db = 0;                // added to gain_db
   double interface_gain_db = 0;  // of interface echoes relative to tissue, in the picture only
   // Interface echoes E become E / (1 + E / limit), in dB of the transmitted intensity. None:
   // unchanged.
@@ -90,6 +91,8 @@ struct SignalSettings {
   bool downshift = false;  // attenuation lowers the centre frequency with depth
   // Unsharp masking of grey levels: 0 none; size of its box.
   double edge_enhancement = 0, edge_size_m = 3e-3;
+
+  double pictureGain_db() const { return gain_db + examiner_gain_db; }
 };
 
 // Relief of the ventricles' inner surfaces, in the picture only (motion/surfaces/trabeculae.h).

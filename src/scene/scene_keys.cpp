@@ -174,6 +174,7 @@ constexpr SceneKey kKeys[] = {
     {"signal", "reference_percentile", kNone, kPercentileRange, "white as a percentile over the loop's frames, near field excluded; if left out, white follows the heart muscle", kPercentile, kFound, kWithPercentile},
     {"signal", "reference_intensity", kNone, ranges::kReferenceIntensity, "white as an intensity relative to I_S", AT(SignalSettings, reference_intensity)},
     {"signal", "gain_db", kDb, ranges::kPictureGain_db, "gain of the picture; lowers the intensity of white", AT(SignalSettings, gain_db)},
+    {"signal", "examiner_gain_db", kDb, ranges::kPictureGain_db, "added to gain_db: how far the examiner changes the gain of a look", AT(SignalSettings, examiner_gain_db)},
     {"signal", "interface_gain_db", kDb, ranges::kPictureGain_db, "gain of interface echoes relative to tissue, in the picture only", AT(SignalSettings, interface_gain_db)},
     {"signal", "interface_limit_db", kDb, ranges::kLevel_db, "limits interface echoes E to E / (1 + E / limit) in the picture; relative to I_S; no limit if left out", AT(SignalSettings, interface_limit_db)},
     {"signal", "grey_gamma", kNone, ranges::kGamma, "grey = c^gamma; c is the position in the dynamic range after toe and shoulder", AT(SignalSettings, grey_gamma)},

@@ -136,12 +136,12 @@ void SignalChain::process(CoherentEchoes& echoes, LineRange lines) const {
 }
 
 void SignalChain::addFields(double white, double time_s, LineRange lines, EchoField& field) const {
-  fields_.addTo(field, white * intensityFromDecibels(-settings_.gain_db), time_s, lines);
+  fields_.addTo(field, white * intensityFromDecibels(-settings_.pictureGain_db()), time_s, lines);
 }
 
 Greys SignalChain::compress(Intensities&& intensities, double reference_intensity, double time_s,
                             const EchoField& field) const {
-  const double white = reference_intensity * intensityFromDecibels(-settings_.gain_db);
+  const double white = reference_intensity * intensityFromDecibels(-settings_.pictureGain_db());
   Greys greys(intensities.release());
   if (fields_.adds()) fields_.add(white, time_s, field, greys);
   compressIntensities(greys, white, settings_.dynamic_range_db, greys);

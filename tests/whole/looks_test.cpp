@@ -85,6 +85,19 @@ TEST_F(Looks, KeysOfTheSceneWin) {
   EXPECT_EQ(scene.speckle.per_cell, 5);
 }
 
+TEST_F(Looks, TheExaminersGainIsAddedToThatOfAnyLook) {
+  const auto picture = [&](const Scene& scene) { return Simulator(scene).frame(0.1).image.pixels; };
+  for (const char* look : {"\"paper\"", "\"scanner\"", "\"faint\""}) {
+    const Scene plain = sceneWith({{"look", look}}),
+                more = sceneWith({{"look", look}, {"examiner_gain_db", "3"}});
+    Scene same = plain;
+    same.signal.gain_db += 3;
+    EXPECT_EQ(more.signal.gain_db, plain.signal.gain_db) << look;
+    EXPECT_EQ(picture(more), picture(same)) << look;
+    EXPECT_NE(picture(more), picture(plain)) << look;
+  }
+}
+
 TEST_F(Looks, PoorerQualityHasMoreOfEveryArtefact) {
   const auto artefacts = [&](const char* quality) {
     return sceneWith({{"look", "\"scanner\""}, {"quality", quality}}).artefacts;
