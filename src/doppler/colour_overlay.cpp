@@ -51,7 +51,8 @@ ColourOverlay::ColourOverlay(const Scene& scene, const SignalChain& chain, const
 
 void ColourOverlay::drawColours(const DopplerFrame& frame, double white, GreyImage& image) const {
   const std::vector<float>& velocities = frame.measured.velocity_m_s;
-  const double least = white * intensityFromDecibels(kLeastPower_db - scene_.signal.pictureGain_db());
+  const double least =
+      white * intensityFromDecibels(kLeastPower_db - scene_.signal.pictureGain_db());
   Greys shown, cosines, sines;
   for (Greys* plane : {&shown, &cosines, &sines}) plane->resize(velocities.size());
   for (std::size_t i = 0; i < velocities.size(); ++i) {
