@@ -130,13 +130,13 @@ class Pictures:
 
     def sheet(self, cines, crop, width, height, columns, name):
         inputs = [part for cine in cines for part in ("-i", cine)]
+        count = len(cines)
         small = "".join(f"[{k}]{crop}scale={width}:{height}:flags=area,format=gray[s{k}];"
-                        for k in range(len(cines)))
-        places = "|".join(f"{width * (k % columns)}_{height * (k // columns)}"
-                          for k in range(len(cines)))
-        tiles = "".join(f"[s{k}]" for k in range(len(cines)))
+                        for k in range(count))
+        places = "|".join(f"{width * (k % columns)}_{height * (k // columns)}" for k in range(count))
+        tiles = "".join(f"[s{k}]" for k in range(count))
         run("ffmpeg", "-v", "error", "-y", *inputs, "-filter_complex",
-            f"{small}{tiles}xstack=inputs={len(cines)}:layout={places},format=gray", "-frames:v",
+            f"{small}{tiles}xstack=inputs={count}:layout={places},format=gray", "-frames:v",
             "1", HERE / name)
 
     def views(self):

@@ -83,8 +83,8 @@ struct Scanner {
 // longitudinal (Greenbaum et al., Br Heart J 45, 248-263, 1981) and scatter 15.9 dB less along
 // their axis. Clutter of ribs and lung (Fatemi et al., Proc. SPIE 10139, 101391D, 2017) reaches
 // farther than in the other looks, and hides apex and lateral wall. Its values are our choice.
-// "faint" has the greys of a loop of a portable scanner with little gain: 45 to 50 % of its sector
-// are under grey 10, the 95 % quantile is 80 to 87, the 99.9 % quantile 142 to 146 (tests/bench).
+// "faint" has the greys of a loop of a portable scanner with little gain: 44 to 50 % of its sector
+// are under grey 10, the 95 % quantile is 78 to 87, the 99.9 % quantile 141 to 145 (tests/bench).
 constexpr double kNearGainDepth_m = 35e-3;
 // Breathing moves skin and lung past the probe by some mm per second, a resolution cell of 2 mm in
 // about half a second: our choice. Near field and lung of two real loops decorrelate in 0.1 s by 2

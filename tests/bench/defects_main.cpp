@@ -9,6 +9,8 @@
 #include <map>
 
 #include "core/parallel.h"
+#include "scene/looks.h"
+#include "scene/names.h"
 #include "support/planted_defects.h"
 #include "support/planted_fits.h"
 
@@ -71,12 +73,9 @@ void run(int hearts, bool fitted) {
     };
     for (const Defect defect : kDefects) look(nameOf(defect), sceneIn(defect, Look::scanner));
     if (fitted) continue;
-    for (const auto& [other, name] : {std::pair{Look::smooth, "smooth"},
-                                      {Look::contrast, "contrast"},
-                                      {Look::sharp, "sharp"},
-                                      {Look::portable, "portable"},
-                                      {Look::faint, "faint"}})
-      look(fmt::format("none, look {}", name), sceneIn(Defect::none, other));
+    for (const Look other : scannerLooks())
+      if (other != Look::scanner)
+        look(fmt::format("none, look {}", nameOf(other)), sceneIn(Defect::none, other));
   }
   for (const auto& [what, count] : counts)
     fmt::print("{}: {} loops, a significant region in {}, the largest in the septum in {}\n", what,

@@ -98,7 +98,7 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
 }
 
 // Greys of a look relative to clinical stills: the loop that "faint" imitates has little gain. Its
-// 95 % quantile is 80 to 87, their median 161 to 207.
+// 95 % quantile is 78 to 87, their median 161 to 207.
 double brightnessOf(Look look) {
   return look == Look::faint ? 0.5 : 1;
 }
@@ -132,7 +132,7 @@ TEST(LooksLaw, ScannersShowBloodDarkAndMuscleGrey) {
       EXPECT_LT(black, 0.01) << name;
     } else {
       EXPECT_GT(black, 0.05) << name;
-      EXPECT_LT(black, 0.51) << name;  // as in those loops
+      EXPECT_LT(black, 0.51) << name;
     }
   }
 }

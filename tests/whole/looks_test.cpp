@@ -179,7 +179,7 @@ TEST(LooksOfDatasets, AreAllDrawn) {
     const auto values = dataset::drawOf(spec, i, 0).valuesOf(0);
     drawn.insert(std::get<std::string>(values.at("scene.signal.look")));
   }
-  EXPECT_EQ(drawn.size(), scannerLooks().size());
+  EXPECT_EQ(drawn.size(), 6u);
 }
 
 }  // namespace
