@@ -1,13 +1,12 @@
 #include "fit/dial_grid.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
-#include <mutex>
 #include <opencv2/core.hpp>
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "fit/counted_steps.h"
 
 namespace echocine::fit {
 
@@ -101,14 +100,12 @@ DialGrid holdGrid(const std::vector<ScanAxis>& axes, const HeartFamily& family,
                   const PlaneTilt& tilt, const Monitor& monitor) {
   DialGrid grid;
   grid.points = pointsOf(axes);
-  std::atomic<std::size_t> done = 0;
-  std::mutex telling;
+  CountedSteps steps(monitor, grid.points.size());
   parallelBlocks(grid.points.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
-      if (!monitor.keep_going()) throw JobError("stopped while dials were scanned");
+      if (!steps.next()) throw JobError("stopped while dials were scanned");
       grid.points[i].found = discrepancy.refine(family.at(grid.points[i].values, tilt), starts);
-      const std::lock_guard lock(telling);
-      monitor.tell({Task::settings, ++done, grid.points.size()});
+      steps.done();
     }
   });
   for (std::size_t i = 0; i < grid.points.size(); ++i)

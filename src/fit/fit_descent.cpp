@@ -67,19 +67,18 @@ FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor&
   return out;
 }
 
-FitPlace newtonStep(const FitCost& cost, const FitDescent& from, double share,
-                    const Monitor& monitor) {
-  const std::size_t n = from.best.at.size();
-  const std::vector<double> slopes = cost.slopesAt(from.best, monitor);
+FitPlace newtonStep(const FitCost& cost, const FitPlace& from, const std::vector<double>& slopes,
+                    const std::vector<double>& covariance, double share) {
+  const std::size_t n = from.at.size();
   std::vector<double> steps(n);
   double longest = 1;
   for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = 0; j < n; ++j) steps[i] -= from.covariance[i * n + j] * slopes[j];
+    for (std::size_t j = 0; j < n; ++j) steps[i] -= covariance[i * n + j] * slopes[j];
     steps[i] /= cost.unknowns()[i].step;
     longest = std::max(longest, std::abs(steps[i]));
   }
   for (double& step : steps) step *= share / longest;
-  return cost.at(cost.moved(from.best.at, steps), from.best.found);
+  return cost.at(cost.moved(from.at, steps), from.found);
 }
 
 }  // namespace echocine::fit

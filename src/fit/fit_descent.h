@@ -21,10 +21,9 @@ inline constexpr int kMostFitRounds = 6;
 // cost. Stops without an error when the monitor requests it.
 FitDescent descendFit(const FitCost& cost, const FitPlace& start, const Monitor& monitor);
 
-// A step of Newton's method from the best place of a descent: slopes by differences, the covariance
-// of the descent. Shortened to at most one step of each unknown; `share` of it is taken. J may
-// rise. Throws JobError if the monitor stops it. Precondition: a covariance.
-FitPlace newtonStep(const FitCost& cost, const FitDescent& from, double share,
-                    const Monitor& monitor);
+// A step of Newton's method from a place with these slopes, shortened to at most one step of each
+// unknown; `share` of it is taken. J may rise.
+FitPlace newtonStep(const FitCost& cost, const FitPlace& from, const std::vector<double>& slopes,
+                    const std::vector<double>& covariance, double share);
 
 }  // namespace echocine::fit

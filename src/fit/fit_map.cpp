@@ -48,17 +48,18 @@ std::vector<TissueCell> seenIn(const ModelFrame& frame, const echo::EchoInstant&
 std::vector<BoundaryOffset> offsetsOf(const ModelFrame& frame, const echo::EchoInstant& at,
                                       const PoseMapping& map) {
   std::vector<BoundaryOffset> out;
-  for (const BoundaryPoint& p : frame.boundary) {
-    const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map);
-    if (!(edge.visible > 0)) continue;
+  forEachPlaced(frame.boundary, at, map, [&](std::size_t i, const PlacedEdge& placed) {
+    const auto& [x, z, nx, nz, beside, edge] = placed;
+    const BoundaryPoint& p = frame.boundary[i];
+    if (!(edge.visible > 0)) return;
     const MotionPair m = motionOf(p, at, map, x, z, nx, nz);
     const bool tracked = p.of_blood && m.weight > 0;
     out.push_back({static_cast<float>(x), static_cast<float>(z),
                    static_cast<float>(1e3 * edge.mean_m),
                    p.alone * static_cast<float>(edge.certainty()),
                    static_cast<float>(tracked ? 1e3 * std::sqrt(m.apart) : -1), p.surface,
-                   p.segment, p.of_blood, static_cast<std::uint32_t>(&p - frame.boundary.data())});
-  }
+                   p.segment, p.of_blood, static_cast<std::uint32_t>(i)});
+  });
   return out;
 }
 

@@ -13,7 +13,7 @@ inline constexpr double kHeartUnits = 8;          // a computed heart
 inline constexpr double kFamilyUnits = 30;        // the hearts of a view
 inline constexpr double kStartUnits = 4;          // a start in a view
 inline constexpr double kEvaluationUnits = 0.75;  // a heart at a known pose in a view
-inline constexpr double kOwnLoopUnits = 100;      // the rendered loops of a view
+inline constexpr double kOwnLoopUnits = 65;       // the rendered loops of a view
 inline constexpr double kViewUnits = 140;         // a view of a ranking
 inline constexpr double kUsualRounds = 4;         // of a descent
 

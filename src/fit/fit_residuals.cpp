@@ -66,11 +66,11 @@ class ResidualBuilder {
   void addSides(std::size_t n, const echo::EchoInstant& at, SeenCells& seen) {
     const ModelFrame& frame = model_.frames[n];
     const std::vector<BoundaryMiddle> middles = middlesOf(frame, model_.structures.size());
-    for (const BoundaryPoint& p : frame.boundary) {
-      if (!p.of_blood) continue;
-      const auto [x, z, nx, nz, beside, edge] = placedEdge(p, at, map_);
+    forEachPlaced(frame.boundary, at, map_, [&](std::size_t i, const PlacedEdge& placed) {
+      const auto& [x, z, nx, nz, beside, edge] = placed;
+      const BoundaryPoint& p = frame.boundary[i];
       const double length = p.length_m * p.weight * edge.visible, sure = length * p.alone;
-      if (!(length > 0)) continue;
+      if (!p.of_blood || !(length > 0)) return;
       seen.take(p, beside / map_.scale());
       const MotionPair m = motionOf(p, at, map_, x, z, nx, nz);
       length_ += sure;
@@ -79,7 +79,7 @@ class ResidualBuilder {
       const std::size_t row = (n * model_.structures.size() + p.surface) * kSides;
       addTo(sides_[row + sides.first], 1 - sides.share, sure, length * m.weight, edge, m);
       addTo(sides_[row + sides.second], sides.share, sure, length * m.weight, edge, m);
-    }
+    });
   }
   // A share of a piece, by its weights for the edge and for the motion.
   static void addTo(SideSums& s, double share, double sure, double tracked, const EdgeProfile& edge,

@@ -29,12 +29,6 @@ double seenBeside(const BoundaryPoint& p, const echo::EchoStack& real, const Pos
          static_cast<double>(p.inside_m) * map.scale();
 }
 
-PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map) {
-  PlacedEdge out[kFloatLanes];
-  placedEdges({&p, 1}, at, map, out);
-  return out[0];
-}
-
 namespace {
 
 // Places where four boundary points are visible, and their normals.

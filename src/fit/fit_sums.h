@@ -70,10 +70,20 @@ struct PlacedEdge {
   double beside = 0;  // of seenBeside()
   EdgeProfile edge;
 };
-PlacedEdge placedEdge(const BoundaryPoint& p, const echo::EchoInstant& at, const PoseMapping& map);
-// The same of up to eight points, in little more than the time of two.
+// Of up to eight points, in little more than the time of two.
 void placedEdges(std::span<const BoundaryPoint> points, const echo::EchoInstant& at,
                  const PoseMapping& map, PlacedEdge out[kFloatLanes]);
+// Calls use(i, placed) for all points, in order.
+template <typename Use>
+void forEachPlaced(std::span<const BoundaryPoint> points, const echo::EchoInstant& at,
+                   const PoseMapping& map, const Use& use) {
+  PlacedEdge placed[kFloatLanes];
+  for (std::size_t first = 0; first < points.size(); first += kFloatLanes) {
+    const auto some = points.subspan(first, std::min(kFloatLanes, points.size() - first));
+    placedEdges(some, at, map, placed);
+    for (std::size_t i = 0; i < some.size(); ++i) use(first + i, placed[i]);
+  }
+}
 
 // u - v|^2 and |u|^2 + |v|^2 of Eq. 5; weight 0 without tracking.
 struct MotionPair {

@@ -41,13 +41,9 @@ void addBoundary(const BoundaryPoint& p, double angle_rad, const PlacedEdge& pla
 void addBoundaries(std::span<const BoundaryPoint> points, std::span<const double> angles_rad,
                    const echo::EchoInstant& at, const PoseMapping& map, SeenCells& cells,
                    BoundarySums& sums) {
-  PlacedEdge placed[kFloatLanes];
-  for (std::size_t first = 0; first < points.size(); first += kFloatLanes) {
-    const auto some = points.subspan(first, std::min(kFloatLanes, points.size() - first));
-    placedEdges(some, at, map, placed);
-    for (std::size_t i = 0; i < some.size(); ++i)
-      addBoundary(some[i], angles_rad[first + i], placed[i], at, map, cells, sums);
-  }
+  forEachPlaced(points, at, map, [&](std::size_t i, const PlacedEdge& placed) {
+    addBoundary(points[i], angles_rad[i], placed, at, map, cells, sums);
+  });
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <array>
 
 #include "core/error.h"
+#include "core/parallel.h"
+#include "fit/counted_steps.h"
 #include "fit/fit_polish.h"
 #include "fit/fit_regions.h"
 #include "fit/own_loop.h"
@@ -84,12 +86,12 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
                              const FitPlace& place, const Monitor& monitor) {
   const std::vector<Look> scanners = scannerLooks();
   std::vector<double> costs(scanners.size());
-  std::size_t done = 0;
+  CountedSteps steps(monitor, views.size() * scanners.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop plain = plainAt(v, cost, place);
     const FitPose& pose = place.found[v].pose;
-    for (std::size_t i = 0; i < scanners.size(); ++i) {
-      if (!monitor.keep_going()) return false;
+    parallelBlocks(scanners.size(), 1, [&](std::size_t i, std::size_t) {
+      if (!steps.next()) return;
       const echo::EchoLoop loop = ownLoops(cost.dialsAt(place.at), views[v],
                                            cost.tiltAt(place.at, v), kFitFrames, scanners[i])
                                       .loop(seedOf(v, 2 * kTwins));
@@ -97,8 +99,9 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
       ModelLoop model = plain;
       lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
       costs[i] += viewCostOf(discrepancies[v].at(model, pose).discrepancy);
-      monitor.tell({Task::settings, ++done, views.size() * scanners.size()});
-    }
+      steps.done();
+    });
+    if (steps.stopped()) return false;
   }
   const auto lowest = std::min_element(costs.begin(), costs.end());
   rendered_as = scanners[static_cast<std::size_t>(lowest - costs.begin())];
@@ -124,21 +127,22 @@ ExpectedSlope FittedSides::slopeOf(std::size_t view, const OwnDiscrepancies& own
 bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::View>& views,
                                 const FitPlace& place, const Monitor& monitor, int round) {
   std::vector<ExpectedLook> found(views.size());
-  for (std::size_t v = 0; v < views.size(); ++v) {
+  CountedSteps steps(monitor, views.size() * kTwins);
+  parallelBlocks(views.size(), 1, [&](std::size_t v, std::size_t) {
     const ModelLoop plain = plainAt(v, cost, place);
     std::deque<ModelDiscrepancy> own;
     RenderedBeats rendered = ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v),
                                       kFitFrames, rendered_as);
     for (int twin = 0; twin < kTwins; ++twin) {
-      if (!monitor.keep_going()) return false;
+      if (!steps.next()) return;
       own.emplace_back(rendered.loop(seedOf(v, (1 + round) * kTwins + twin)), beatOf(plain), plain);
-      monitor.tell(
-          {Task::settings, v * kTwins + static_cast<std::size_t>(twin) + 1, views.size() * kTwins});
+      steps.done();
     }
     found[v] = lookIn(pointersTo(own), plain, discrepancies[v], place.found[v].pose);
     found[v].slope = slopeOf(v, pointersTo(own), cost, place);
     found[v].slope.scaleTo(found[v].sight()->both());
-  }
+  });
+  if (steps.stopped()) return false;
   looks = std::move(found);
   return true;
 }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "fit/fit_polish.h"
+#include "fit/secant_covariance.h"
 
 namespace echocine::fit {
 
@@ -55,18 +56,24 @@ class LookRounds {
   }
 
   // Newton's method with the look of each place, in loops of its own, as far as the loops show it.
+  // The look moves with the heart, so the curvature is not that of one look: the slopes correct it.
   // The result is the mean of the last places: their noise differs. False if stopped.
   bool settle(Looked& one) {
     FitDescent& descent = one.descent;
     const int steps = options_.settling_steps, last = std::min(steps, kMeanSteps);
     if (steps == 0) return true;
     std::vector<double> mean(descent.best.at.size());
+    SecantCovariance curvature(descent.covariance);
     for (int step = 1; step <= steps; ++step) {
       one.stage = fmt::format("own look, step {}", step);
       if (!measure(one, step)) return false;
       const Monitor monitor = progress_.next(stages_.step);
+      const FitCost cost = costOf(one.stage);
       try {
-        descent.best = newtonStep(costOf(one.stage), descent, meanShown(one.looks), monitor);
+        const std::vector<double> slopes = cost.slopesAt(descent.best, monitor);
+        curvature.add(descent.best.at, slopes);
+        descent.best = newtonStep(cost, descent.best, slopes, curvature.covariance(),
+                                  meanShown(one.looks));
       } catch (const JobError&) {
         if (monitor.keep_going()) throw;
         return false;

@@ -51,7 +51,7 @@ TEST(FitNewton, StepsFollowTheSlopesOfTheCost) {
     // Minus covariance times slope, but no longer than a step of the unknown; then a share of it.
     const double small = 0.1 * step / std::abs(slope), large = 7 * step / std::abs(slope);
     const auto reached = [&](double covariance, double share) {
-      return newtonStep(plain, {place, {covariance}, false}, share, {}).at[0];
+      return newtonStep(plain, place, {slope}, {covariance}, share).at[0];
     };
     EXPECT_NEAR(reached(small, 1), 0.45 + 0.1 * step, 1e-12);
     EXPECT_NEAR(reached(small, 0.25), 0.45 + 0.025 * step, 1e-12);
@@ -60,7 +60,7 @@ TEST(FitNewton, StepsFollowTheSlopesOfTheCost) {
 
     Monitor stopping;
     stopping.keep_going = [] { return false; };
-    EXPECT_THROW(newtonStep(plain, {place, {small}, false}, 1, stopping), JobError);
+    EXPECT_THROW(plain.slopesAt(place, stopping), JobError);
 
     // (24) in (14): 500 ln(D - q c s (x - x_0)).
     const double d = above.found[0].discrepancy, s = 0.4, shown = 0.5;

@@ -102,7 +102,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         starts: hearts that are compared first.
         descents: searches, from the best of them.
         own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them.
-            Takes five times as long. None: with three loops.
+            Takes five times as long. None: with two or three loops.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.

@@ -1,0 +1,47 @@
+#include "fit/secant_covariance.h"
+
+#include <opencv2/core.hpp>
+
+#include "core/check.h"
+
+namespace echocine::fit {
+
+namespace {
+
+cv::Mat difference(const std::vector<double>& a, const std::vector<double>& b) {
+  return cv::Mat(a, true) - cv::Mat(b, true);
+}
+
+// None changes nothing.
+cv::Mat dampedChange(const cv::Mat& covariance, const cv::Mat& s, const cv::Mat& y) {
+  cv::Mat expected;  // C^-1 s
+  if (!cv::solve(covariance, s, expected, cv::DECOMP_CHOLESKY)) return {};
+  const double square = s.dot(expected), ratio = s.dot(y) / square;
+  if (!(square >= SecantCovariance::kShortest * SecantCovariance::kShortest)) return {};
+  if (ratio > SecantCovariance::kMostRatio) return y * (SecantCovariance::kMostRatio / ratio);
+  if (ratio >= SecantCovariance::kLeastRatio) return y;
+  const double share = (1 - SecantCovariance::kLeastRatio) / (1 - ratio);
+  return share * y + (1 - share) * expected;
+}
+
+}  // namespace
+
+void SecantCovariance::add(const std::vector<double>& at, const std::vector<double>& slopes) {
+  const auto n = static_cast<int>(at.size());
+  CHECK_EQ(covariance_.size(), at.size() * at.size());
+  CHECK_EQ(slopes.size(), at.size());
+  if (!at_.empty()) {
+    cv::Mat c(n, n, CV_64F, covariance_.data());
+    const cv::Mat s = difference(at, at_), y = dampedChange(c, s, difference(slopes, slopes_));
+    if (!y.empty()) {
+      const double sy = s.dot(y);
+      const cv::Mat left = cv::Mat::eye(n, n, CV_64F) - s * y.t() / sy;
+      const cv::Mat next = left * c * left.t() + s * s.t() / sy;
+      cv::Mat(0.5 * (next + next.t())).copyTo(c);
+    }
+  }
+  at_ = at;
+  slopes_ = slopes;
+}
+
+}  // namespace echocine::fit
