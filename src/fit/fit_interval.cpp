@@ -155,12 +155,14 @@ void widenByRivals(HeartFit& fit) {
 
 }  // namespace
 
-ModelError modelErrorOf(std::size_t views, std::optional<double> agreement) {
+ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement) {
   // Hearts of the family, by the number of views; growth outside it.
-  constexpr ModelError kOfFamily[] = {
+  constexpr ModelError kPlain[] = {
       {0.015, 0.085, 0.009}, {0.015, 0.05, 0.009}, {0.015, 0.045, 0.009}};
+  constexpr ModelError kWithOwnLook[] = {kPlain[0], {0.01, 0.05, 0.009}, {0.01, 0.02, 0.009}};
   constexpr ModelError kOutside{0.10, 0.18, 0.035};
-  const ModelError& inside = kOfFamily[std::clamp<std::size_t>(views, 1, 3) - 1];
+  const std::size_t row = std::clamp(views, std::size_t{1}, kMostLoops) - 1;
+  const ModelError& inside = own_look ? kWithOwnLook[row] : kPlain[row];
   const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasuredAgreement), 0.0, 1.0);
   return {std::hypot(inside.ef, beyond * kOutside.ef),
           std::hypot(inside.edv, beyond * kOutside.edv),
@@ -172,7 +174,7 @@ void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, H
   fit.cost = best.best.cost;
   fit.dials = cost.dialsAt(best.best.at);
   fit.agreement = agreementOf(fit.views);
-  fit.model_error = modelErrorOf(fit.views.size(), fit.agreement);
+  fit.model_error = modelErrorOf(fit.views.size(), fit.own_look, fit.agreement);
   addDials(cost, best, fit);
   addRivals(cost, descents, fit);
   fit.refusal = refusalOf(fit);

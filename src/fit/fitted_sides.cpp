@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 #include "core/error.h"
 #include "core/parallel.h"
@@ -85,6 +86,9 @@ ModelLoop FittedSides::modelAt(std::size_t view, const FitCost& cost, const FitP
 bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>& views,
                              const FitPlace& place, const Monitor& monitor) {
   const std::vector<Look> scanners = scannerLooks();
+  // Looks that are farther above the lowest after a view are not rendered in others. Our choice.
+  constexpr double kMostAbove = 60;
+  constexpr double kDropped = std::numeric_limits<double>::infinity();
   std::vector<double> costs(scanners.size());
   CountedSteps steps(monitor, views.size() * scanners.size());
   for (std::size_t v = 0; v < views.size(); ++v) {
@@ -92,6 +96,7 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
     const FitPose& pose = place.found[v].pose;
     parallelBlocks(scanners.size(), 1, [&](std::size_t i, std::size_t) {
       if (!steps.next()) return;
+      if (costs[i] == kDropped) return steps.done();
       const echo::EchoLoop loop = ownLoops(cost.dialsAt(place.at), views[v],
                                            cost.tiltAt(place.at, v), kFitFrames, scanners[i])
                                       .loop(seedOf(v, 2 * kTwins));
@@ -102,6 +107,9 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
       steps.done();
     });
     if (steps.stopped()) return false;
+    const double lowest = *std::min_element(costs.begin(), costs.end());
+    for (double& one : costs)
+      if (one > lowest + kMostAbove) one = kDropped;
   }
   const auto lowest = std::min_element(costs.begin(), costs.end());
   rendered_as = scanners[static_cast<std::size_t>(lowest - costs.begin())];

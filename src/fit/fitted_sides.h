@@ -24,8 +24,8 @@ struct FittedSides {
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);
   std::vector<FitSide> refer() const;
   // Sets `rendered_as` to the look of a scanner whose own loops of the model at a place lower J
-  // most, one loop in each view. False if the monitor stopped it; nothing has changed then. Throws
-  // like expectOwnLook().
+  // most, one loop in each view until its sum is far above the lowest. False if the monitor stopped
+  // it; nothing has changed then. Throws like expectOwnLook().
   bool chooseLook(const FitCost& cost, const std::vector<heart::View>& views, const FitPlace& place,
                   const Monitor& monitor);
   // Measures the look of each view's model at a place, in kTwins own loops. Costs of the earlier

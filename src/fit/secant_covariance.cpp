@@ -12,15 +12,16 @@ cv::Mat difference(const std::vector<double>& a, const std::vector<double>& b) {
   return cv::Mat(a, true) - cv::Mat(b, true);
 }
 
-// None changes nothing.
-cv::Mat dampedChange(const cv::Mat& covariance, const cv::Mat& s, const cv::Mat& y) {
-  cv::Mat expected;  // C^-1 s
-  if (!cv::solve(covariance, s, expected, cv::DECOMP_CHOLESKY)) return {};
+// Empty if the step is too short, or the covariance not definite after rounding.
+cv::Mat dampedChange(const cv::Mat& first, const cv::Mat& s, const cv::Mat& y) {
+  using Secant = SecantCovariance;
+  cv::Mat expected;
+  if (!cv::solve(first, s, expected, cv::DECOMP_CHOLESKY)) return {};
   const double square = s.dot(expected), ratio = s.dot(y) / square;
-  if (!(square >= SecantCovariance::kShortest * SecantCovariance::kShortest)) return {};
-  if (ratio > SecantCovariance::kMostRatio) return y * (SecantCovariance::kMostRatio / ratio);
-  if (ratio >= SecantCovariance::kLeastRatio) return y;
-  const double share = (1 - SecantCovariance::kLeastRatio) / (1 - ratio);
+  if (!(square >= Secant::kShortest * Secant::kShortest)) return {};
+  if (ratio > Secant::kMostRatio) return y * (Secant::kMostRatio / ratio);
+  if (ratio >= Secant::kLeastRatio) return y;
+  const double share = (1 - Secant::kLeastRatio) / (1 - ratio);
   return share * y + (1 - share) * expected;
 }
 
@@ -32,7 +33,8 @@ void SecantCovariance::add(const std::vector<double>& at, const std::vector<doub
   CHECK_EQ(slopes.size(), at.size());
   if (!at_.empty()) {
     cv::Mat c(n, n, CV_64F, covariance_.data());
-    const cv::Mat s = difference(at, at_), y = dampedChange(c, s, difference(slopes, slopes_));
+    const cv::Mat s = difference(at, at_),
+                  y = dampedChange({n, n, CV_64F, first_.data()}, s, difference(slopes, slopes_));
     if (!y.empty()) {
       const double sy = s.dot(y);
       const cv::Mat left = cv::Mat::eye(n, n, CV_64F) - s * y.t() / sy;

@@ -92,7 +92,7 @@ TEST(HeartFit, APlantedHeartIsFound) {
     EXPECT_EQ(*fit.agreement, fit.views[0].own_sight->greys);
     EXPECT_EQ(file["model_error"]["agreement"], *fit.agreement);
     EXPECT_EQ(file["model_error"]["ef"], fit.model_error.ef);
-    EXPECT_EQ(fit.model_error.edv, modelErrorOf(1, fit.agreement).edv);
+    EXPECT_EQ(fit.model_error.edv, modelErrorOf(1, true, fit.agreement).edv);
     // Eq. 15, at 90 %.
     EXPECT_NEAR(fit.ef->high - fit.ef->value,
                 1.645 * std::hypot(fit.found[0].sd, fit.model_error.ef), 1e-9);
