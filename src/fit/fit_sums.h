@@ -70,7 +70,7 @@ struct PlacedEdge {
   double beside = 0;  // of seenBeside()
   EdgeProfile edge;
 };
-// Of up to eight points, in little more than the time of two.
+// Boundary points under a pose, up to eight in little more than the time of two.
 void placedEdges(std::span<const BoundaryPoint> points, const echo::EchoInstant& at,
                  const PoseMapping& map, PlacedEdge out[kFloatLanes]);
 // Calls use(i, placed) for all points, in order.

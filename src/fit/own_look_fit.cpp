@@ -72,8 +72,8 @@ class LookRounds {
       try {
         const std::vector<double> slopes = cost.slopesAt(descent.best, monitor);
         curvature.add(descent.best.at, slopes);
-        descent.best = newtonStep(cost, descent.best, slopes, curvature.covariance(),
-                                  meanShown(one.looks));
+        descent.best =
+            newtonStep(cost, descent.best, slopes, curvature.covariance(), meanShown(one.looks));
       } catch (const JobError&) {
         if (monitor.keep_going()) throw;
         return false;
