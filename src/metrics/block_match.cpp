@@ -72,9 +72,7 @@ class Correlations {
     top_ = std::max(0, block.line - block.half_lines - s.search_lines);
     const int end = std::min(after.lines, block.line + block.half_lines + s.search_lines + 1);
     readLines(end - top_);
-    found_.assign(static_cast<std::size_t>(2 * s.search_lines + 1) *
-                      static_cast<std::size_t>(2 * s.search_samples + 1),
-                  kNone);
+    found_.assign(placeOf(s.search_lines, s.search_samples) + 1, kNone);
     dots_.resize(count_), sums_.resize(count_), squares_.resize(count_);
     for (int i = -s.search_lines; i <= s.search_lines; ++i)
       if (block.line + i - block.half_lines >= top_ && block.line + i + block.half_lines < end)
@@ -82,13 +80,15 @@ class Correlations {
   }
 
   // kNone where the shifted block does not lie in the picture, or is constant.
-  double at(int lines, int samples) const {
-    return found_[static_cast<std::size_t>(lines + s_.search_lines) *
-                      static_cast<std::size_t>(2 * s_.search_samples + 1) +
-                  static_cast<std::size_t>(samples + s_.search_samples)];
-  }
+  double at(int lines, int samples) const { return found_[placeOf(lines, samples)]; }
 
  private:
+  std::size_t placeOf(int lines, int samples) const {
+    return static_cast<std::size_t>(lines + s_.search_lines) *
+               static_cast<std::size_t>(2 * s_.search_samples + 1) +
+           static_cast<std::size_t>(samples + s_.search_samples);
+  }
+
   // Numbers that the shifted blocks cover, about one of them so that little cancels.
   void readLines(int lines) {
     const auto n = static_cast<std::size_t>(lines);
@@ -139,9 +139,7 @@ class Correlations {
       const double found = power > kLeastShare * squares_[k]
                                ? dots_[k] / std::sqrt(about_.power * power)
                                : correlationOf(about_, AboutMean(movedBy(lines, samples)));
-      found_[static_cast<std::size_t>(lines + s_.search_lines) *
-                 static_cast<std::size_t>(2 * s_.search_samples + 1) +
-             static_cast<std::size_t>(samples + s_.search_samples)] = found;
+      found_[placeOf(lines, samples)] = found;
     }
   }
 
