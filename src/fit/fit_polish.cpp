@@ -13,10 +13,10 @@ namespace echocine::fit {
 namespace {
 
 constexpr double kFirstWidth = 2.5, kShrink = 0.9;  // in standard deviations; a round's factor
-constexpr double kWidest = 1.2;    // steps of an unknown; beyond, J is no quadratic
-constexpr double kFarthest = 1.5;  // widths, of the way to a minimum
-constexpr double kLeastWeight = 0.01;
-constexpr double kPlaceNoise = 1;  // of a single J, above that of a regression's minimum
+constexpr double kWidest = 1.2;        // steps of an unknown; beyond, J is no quadratic
+constexpr double kFarthest = 1.5;      // widths, of the way to a minimum
+constexpr double kLeastWeight = 0.01;  // of a place in a regression
+constexpr double kPlaceNoise = 1;      // of a single J, above that of a regression's minimum
 
 FitPlace lowestOf(const std::vector<FitPlace>& places) {
   return *std::min_element(places.begin(), places.end(),
@@ -102,19 +102,36 @@ std::vector<FitPlace> placesAbout(const FitCost& cost, const FitPlace& middle, c
   return out;
 }
 
+// Weights of Eq. 22; 0 for places that are too far away. A limit of an unknown can move places far
+// along an axis of small SD: if too few places are near, the nearest ones have the least weight.
+std::vector<double> weightsOf(const std::vector<double>& squares, double scale,
+                              std::size_t needed) {
+  std::vector<double> sorted = squares;
+  const std::size_t last = std::min(needed, squares.size()) - 1;
+  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(last),
+                   sorted.end());
+  const double farthest = std::max(sorted[last], -scale * std::log(kLeastWeight));
+  std::vector<double> out;
+  for (const double square : squares)
+    out.push_back(square > farthest ? 0 : std::max(kLeastWeight, std::exp(-square / scale)));
+  return out;
+}
+
 // The sum of the views' regressions and the prior, in steps from a place.
 Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle, const Axes& axes,
                           double width, const std::vector<FitPlace>& places) {
   const std::size_t n = middle.size();
+  std::vector<double> squares;
+  for (const FitPlace& place : places)
+    squares.push_back(axes.squareOf(cost.stepsBetween(middle, place.at)));
+  const std::vector<double> weights = weightsOf(squares, 2 * static_cast<double>(n) * width * width,
+                                                2 * polishPairs(cost.unknownsOf(0).size()));
   std::vector<WeightedValue> values;
   std::vector<const FitPlace*> used;
-  for (const FitPlace& place : places) {
-    std::vector<double> u = cost.stepsBetween(middle, place.at);
-    const double weight =
-        std::exp(-0.5 * axes.squareOf(u) / (static_cast<double>(n) * width * width));
-    if (weight < kLeastWeight) continue;
-    values.push_back({std::move(u), 0, weight});
-    used.push_back(&place);
+  for (std::size_t k = 0; k < places.size(); ++k) {
+    if (!(weights[k] > 0)) continue;
+    values.push_back({cost.stepsBetween(middle, places[k].at), 0, weights[k]});
+    used.push_back(&places[k]);
   }
   std::vector<Quadratic> views;
   for (std::size_t v = 0; v < cost.views(); ++v) {

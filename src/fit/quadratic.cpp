@@ -56,18 +56,20 @@ Quadratic differencesOf(std::size_t all, const std::vector<std::size_t>& of, con
 Quadratic regressionOf(std::size_t all, const std::vector<std::size_t>& of,
                        const std::vector<WeightedValue>& values) {
   const std::size_t n = of.size(), terms = 1 + n + n * (n + 1) / 2;
-  cv::Mat rows(static_cast<int>(values.size()), static_cast<int>(terms), CV_64F);
-  cv::Mat right(rows.rows, 1, CV_64F);
-  for (int k = 0; k < rows.rows; ++k) {
-    const auto& [u, value, weight] = values[static_cast<std::size_t>(k)];
+  // cv::solve() needs as many rows as coefficients: rows of zeros leave the solution as it is.
+  const auto needed = static_cast<int>(std::max(values.size(), terms));
+  cv::Mat rows(needed, static_cast<int>(terms), CV_64F, cv::Scalar(0));
+  cv::Mat right(needed, 1, CV_64F, cv::Scalar(0));
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    const auto& [u, value, weight] = values[k];
     const double root = std::sqrt(weight);
-    double* row = rows.ptr<double>(k);
+    double* row = rows.ptr<double>(static_cast<int>(k));
     *row++ = root;
     for (const std::size_t i : of) *row++ = root * u[i];
     for (std::size_t a = 0; a < n; ++a)
       for (std::size_t b = 0; b <= a; ++b)
         *row++ = root * (a == b ? 0.5 : 1.0) * u[of[a]] * u[of[b]];
-    right.at<double>(k) = root * value;
+    right.at<double>(static_cast<int>(k)) = root * value;
   }
   cv::Mat solved;
   cv::solve(rows, right, solved, cv::DECOMP_SVD);

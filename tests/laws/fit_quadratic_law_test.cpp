@@ -88,6 +88,14 @@ TEST(FitQuadratic, ARegressionOfAQuadraticIsExact) {
   EXPECT_NEAR(open.hessian[0], q.hessian[0], 1e-12);
   EXPECT_NEAR(open.gradient[2], 0, 1e-12);
   EXPECT_NEAR(open.hessian[2], 0, 1e-12);
+  // Fewer values than the six coefficients: the least of the quadratics through them.
+  const Quadratic constant = regressionOf(3, {0, 2}, {{{0, 0, 0}, 5, 2}});
+  EXPECT_NEAR(constant.value, 5, 1e-12);
+  for (const double one : constant.gradient) EXPECT_NEAR(one, 0, 1e-12);
+  const Quadratic line = regressionOf(3, {0, 2}, {{{1, 0, 0}, 3, 1}, {{-1, 0, 0}, -3, 1}});
+  EXPECT_NEAR(line.gradient[0], 3, 1e-12);
+  EXPECT_NEAR(line.value, 0, 1e-12);
+  EXPECT_NEAR(line.hessian[0], 0, 1e-12);
 }
 
 TEST(FitQuadratic, AMovedOriginKeepsTheFunction) {
