@@ -37,10 +37,9 @@ struct WeightedValue {
 };
 
 // (22)  q = argmin sum_k w_k (f(u_k) - q(u_k))^2
-// The quadratic of the listed unknowns, out of `all`, by weighted least squares. Of several
-// solutions it is the one of least norm, so coefficients that the values leave open are 0. It
-// averages over noise and over deviations from a quadratic, where
-// differencesOf() takes each value as exact.
+// The quadratic of the listed unknowns, out of `all`, by weighted least squares: the solution of
+// least norm, so coefficients that the values leave open are 0. It averages over noise and over
+// deviations from a quadratic, where differencesOf() takes each value as exact.
 Quadratic regressionOf(std::size_t all, const std::vector<std::size_t>& of,
                        const std::vector<WeightedValue>& values);
 

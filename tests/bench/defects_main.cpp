@@ -1,9 +1,10 @@
-// defect_table [HEARTS [fit]]: regions that differ by more than a perfect model would, for planted
-// defects of the septum and for perfect models in several looks. The dials are known, or all five
-// are fitted (2 minutes of one core a loop).
+// defect_table [HEARTS [fit [VIEWS [FIRST]]]]: regions that differ by more than a perfect model
+// would, for planted defects of the septum and for perfect models in several looks. In a4c with
+// known dials; or the dials are fitted in one to three views, which takes as long as in fit_table.
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <map>
@@ -25,19 +26,32 @@ struct Count {
   int loops = 0, anything = 0, in_septum = 0;
 };
 
-// Hearts in a4c; their atria, right ventricles and twist are the model's.
+// Hearts whose atria, right ventricles and twist are the model's.
 std::map<std::string, double> dialsOf(int heart) {
   std::map<std::string, double> dials = plantedHeart(heart, 0, 0).dials;
   for (const char* key : {"la-volume", "twist", "rv-edv"}) dials.erase(key);
   return dials;
 }
 
-std::vector<RegionFinding> regionsOfFit(const EchoLoop& loop) {
-  FitLoop given{View::a4c, loop, {}};
-  given.side.ed_frame = 0;
+// Of all views.
+std::vector<RegionFinding> regionsOfFit(const std::vector<EchoLoop>& loops) {
+  std::vector<FitLoop> given;
+  for (std::size_t v = 0; v < loops.size(); ++v) {
+    given.push_back({kPlantedViews[v], loops[v], {}});
+    given.back().side.ed_frame = 0;
+  }
   HeartFitOptions options;
   options.other_views = false;
-  return fitHeart({given}, options).views.front().regions;
+  const HeartFit fit = fitHeart(given, options);
+  fmt::print("EF {:.3f}, EDV {:.1f} mL, {:.0f} s\n", fit.dials.at("ef"), fit.dials.at("edv"),
+             1e-3 * fit.cpu_ms);
+  std::vector<RegionFinding> all;
+  for (const ViewFitted& view : fit.views)
+    for (RegionFinding region : view.regions) {
+      region.name = fmt::format("{} {}", keyOf(view.view), region.name);
+      all.push_back(std::move(region));
+    }
+  return all;
 }
 
 void tell(const std::string& what, const std::vector<RegionFinding>& regions, Count& count) {
@@ -56,27 +70,44 @@ void tell(const std::string& what, const std::vector<RegionFinding>& regions, Co
   std::fflush(stdout);
 }
 
-void run(int hearts, bool fitted) {
-  std::map<std::string, Count> counts;
+using Counts = std::map<std::string, Count>;
+
+void runKnown(int hearts, Counts& counts) {
   for (int h = 0; h < hearts; ++h) {
     const auto dials = dialsOf(h);
     const auto sceneIn = [&](Defect defect, Look look) {
       return defectScene(dials, defect, View::a4c, 20, look);
     };
-    std::optional<PerfectModel> perfect;
-    if (!fitted) perfect.emplace(sceneIn(Defect::none, Look::scanner));
+    const PerfectModel perfect(sceneIn(Defect::none, Look::scanner));
     int seed = 1000 + 20 * h;
     const auto look = [&](const std::string& what, const Scene& scene) {
-      const EchoLoop loop = scannedLoop(scene, kFitFrames, ++seed);
       tell(fmt::format("{}, heart {}", what, h),
-           fitted ? regionsOfFit(loop) : perfect->against(loop), counts[what]);
+           perfect.against(scannedLoop(scene, kFitFrames, ++seed)), counts[what]);
     };
     for (const Defect defect : kDefects) look(nameOf(defect), sceneIn(defect, Look::scanner));
-    if (fitted) continue;
     for (const Look other : scannerLooks())
       if (other != Look::scanner)
         look(fmt::format("none, look {}", nameOf(other)), sceneIn(Defect::none, other));
   }
+}
+
+void runFitted(int hearts, std::size_t views, int first, Counts& counts) {
+  for (int h = first; h < first + hearts; ++h) {
+    int seed = 1000 + 20 * h;
+    for (const Defect defect : kDefects) {
+      ++seed;
+      std::vector<EchoLoop> loops;
+      for (std::size_t v = 0; v < views; ++v)
+        loops.push_back(
+            scannedLoop(defectScene(dialsOf(h), defect, kPlantedViews[v], 20, Look::scanner),
+                        kFitFrames, seed + 1000 * static_cast<int>(v)));
+      const std::string what = nameOf(defect);
+      tell(fmt::format("{}, heart {}", what, h), regionsOfFit(loops), counts[what]);
+    }
+  }
+}
+
+void print(const Counts& counts) {
   for (const auto& [what, count] : counts)
     fmt::print("{}: {} loops, a significant region in {}, the largest in the septum in {}\n", what,
                count.loops, count.anything, count.in_septum);
@@ -88,5 +119,14 @@ void run(int hearts, bool fitted) {
 int main(int argc, char** argv) {
   const int hearts = argc > 1 ? std::atoi(argv[1]) : 10;
   const bool fitted = argc > 2 && std::strcmp(argv[2], "fit") == 0;
-  echocine::withThreads(0, [&] { echocine::bench::run(hearts, fitted); });
+  const int views = argc > 3 ? std::clamp(std::atoi(argv[3]), 1, 3) : 1;
+  const int first = argc > 4 ? std::atoi(argv[4]) : 0;
+  echocine::bench::Counts counts;
+  echocine::withThreads(0, [&] {
+    if (fitted)
+      echocine::bench::runFitted(hearts, static_cast<std::size_t>(views), first, counts);
+    else
+      echocine::bench::runKnown(hearts, counts);
+  });
+  echocine::bench::print(counts);
 }
