@@ -134,6 +134,15 @@ double RegionFinding::deviations() const {
                    local_mm ? std::abs(*local_mm) / local_sd_mm : 0});
 }
 
+RegionFloor floorWithOwnLook(double agreement) {
+  const double plain = std::clamp((1 - agreement) / (1 - kPlainAgreement), 0.0, 1.0);
+  const auto between = [&](double RegionFloor::*one) {
+    return std::lerp(kFittedWithOwnLook.*one, kFittedDials.*one, plain);
+  };
+  return {between(&RegionFloor::segment_mm), between(&RegionFloor::structure_mm),
+          between(&RegionFloor::local_mm)};
+}
+
 std::vector<RegionFinding> regionFindings(const FitReport& loop, const std::vector<FitMap>& twins,
                                           const RegionFloor& floor) {
   const std::size_t structures = loop.structures.size();

@@ -36,12 +36,18 @@ inline constexpr double kRegionSds = 3;
 inline constexpr int kTwins = 3;
 
 // Standard deviations that the own loops of a perfect model do not show: other media, gain and
-// looks, and for fitted dials the error of the fit. From planted hearts (tests/bench/fit); those of
-// fitted dials from few hearts.
+// looks, and for fitted dials the error of the fit, which is smaller with own look. From planted
+// hearts (tests/bench/fit); those of fitted dials from few hearts.
 struct RegionFloor {
   double segment_mm = 0, structure_mm = 0, local_mm = 0;
 };
-inline constexpr RegionFloor kKnownDials{0.4, 0.5, 0.35}, kFittedDials{0.9, 1.0, 0.5};
+inline constexpr RegionFloor kKnownDials{0.4, 0.5, 0.35}, kFittedDials{0.9, 1.0, 0.5},
+    kFittedWithOwnLook{0.5, 0.8, 0.3};
+
+// For a fit with own look: kFittedWithOwnLook at an agreement (Eq. 23) of 1, kFittedDials at
+// kPlainAgreement and below, linear between. Edges of a loop that looks different lie elsewhere.
+inline constexpr double kPlainAgreement = 0.9;  // our choice
+RegionFloor floorWithOwnLook(double agreement);
 
 // Findings of all structures beside blood and all segments that the loop and all twins show, the
 // structures first. A twin is the map of the heart against one of its own rendered loops.

@@ -144,6 +144,17 @@ TEST(FitRegions, ASegmentIsComparedWithItsNeighbours) {
   }
 }
 
+// Between own look and plain fits; never beyond.
+TEST(FitRegions, TheFloorGrowsAsTheAgreementFalls) {
+  const auto isAt = [](double agreement, double plain) {
+    const RegionFloor floor = floorWithOwnLook(agreement);
+    EXPECT_NEAR(floor.segment_mm, 0.5 + plain * 0.4, 1e-12) << agreement;
+    EXPECT_NEAR(floor.structure_mm, 0.8 + plain * 0.2, 1e-12) << agreement;
+    EXPECT_NEAR(floor.local_mm, 0.3 + plain * 0.2, 1e-12) << agreement;
+  };
+  isAt(1, 0), isAt(0.95, 0.5), isAt(0.9, 1), isAt(0, 1);
+}
+
 TEST(FitRegions, WhatIsHardlyVisibleIsNotSignificant) {
   const std::vector<FitMap> twins(2, mapOf(-3, -3, 0.5F));
   for (const FitMap& loop : {mapOf(0, 30, 0.05F), mapOf(0, 30, 0.5F, 4)})
