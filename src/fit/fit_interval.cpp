@@ -131,16 +131,6 @@ void widen(Estimate& e, double other) {
   e.high = std::max(e.high, other);
 }
 
-// a of Eq. 23.
-std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
-  double sum = 0;
-  for (const ViewFitted& view : views) {
-    if (!view.own_sight) return std::nullopt;
-    sum += view.own_sight->greys;
-  }
-  return sum / static_cast<double>(views.size());
-}
-
 // By rivals that fit nearly as well.
 void widenByRivals(HeartFit& fit) {
   for (const HeartRival& rival : fit.rivals) {
@@ -154,6 +144,15 @@ void widenByRivals(HeartFit& fit) {
 }
 
 }  // namespace
+
+std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
+  double sum = 0;
+  for (const ViewFitted& view : views) {
+    if (!view.own_sight) return std::nullopt;
+    sum += view.own_sight->greys;
+  }
+  return sum / static_cast<double>(views.size());
+}
 
 ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement) {
   // Hearts of the family, by the number of views; growth outside it.

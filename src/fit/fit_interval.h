@@ -15,6 +15,9 @@ namespace echocine::fit {
 inline constexpr double kUnmeasuredAgreement = 0.5;  // our choice: that of the patient's heart
 ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement);
 
+// a of Eq. 23; none unless it was measured in all views.
+std::optional<double> agreementOf(const std::vector<ViewFitted>& views);
+
 // Fills the results, dials, hints and refusal of a fit from its descents, the best first.
 // Precondition: `fit.views` and fixed dials are there.
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit);

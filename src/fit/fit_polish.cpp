@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <opencv2/core.hpp>
+#include <utility>
 
 #include "core/error.h"
 #include "core/hash_random.h"
@@ -121,16 +122,19 @@ std::vector<double> weightsOf(const std::vector<double>& squares, double scale,
 Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle, const Axes& axes,
                           double width, const std::vector<FitPlace>& places) {
   const std::size_t n = middle.size();
+  std::vector<std::vector<double>> steps;
   std::vector<double> squares;
-  for (const FitPlace& place : places)
-    squares.push_back(axes.squareOf(cost.stepsBetween(middle, place.at)));
+  for (const FitPlace& place : places) {
+    steps.push_back(cost.stepsBetween(middle, place.at));
+    squares.push_back(axes.squareOf(steps.back()));
+  }
   const std::vector<double> weights = weightsOf(squares, 2 * static_cast<double>(n) * width * width,
                                                 2 * polishPairs(cost.unknownsOf(0).size()));
   std::vector<WeightedValue> values;
   std::vector<const FitPlace*> used;
   for (std::size_t k = 0; k < places.size(); ++k) {
     if (!(weights[k] > 0)) continue;
-    values.push_back({cost.stepsBetween(middle, places[k].at), 0, weights[k]});
+    values.push_back({std::move(steps[k]), 0, weights[k]});
     used.push_back(&places[k]);
   }
   std::vector<Quadratic> views;

@@ -177,14 +177,11 @@ void compareWithOwnLoops(const FittedSides& sides, const FitCost& cost,
   auto own = fitOwnLoops(sides, cost, views, best, options.tilt_deg, monitor, options.journal);
   fit.stopped = !own;
   if (!own) return;
-  double agreement = 0;
-  for (const OwnSight& sight : own->sight)
-    agreement += sight.greys / static_cast<double>(own->sight.size());
-  const RegionFloor floor = fit.own_look ? floorWithOwnLook(agreement) : kFittedDials;
+  for (std::size_t v = 0; v < views.size(); ++v) fit.views[v].own_sight = own->sight[v];
+  const RegionFloor floor = fit.own_look ? floorWithOwnLook(*agreementOf(fit.views)) : kFittedDials;
   for (std::size_t v = 0; v < views.size(); ++v) {
     fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], floor);
     fit.views[v].own = std::move(own->report[v]);
-    fit.views[v].own_sight = own->sight[v];
   }
   for (std::size_t i = 0; i < own->error.size(); ++i)
     fit.own_error[cost.unknowns()[i].name] = own->error[i];

@@ -33,16 +33,11 @@ std::map<std::string, double> dialsOf(int heart) {
   return dials;
 }
 
-// Of all views.
-std::vector<RegionFinding> regionsOfFit(const std::vector<EchoLoop>& loops) {
-  std::vector<FitLoop> given;
-  for (std::size_t v = 0; v < loops.size(); ++v) {
-    given.push_back({kPlantedViews[v], loops[v], {}});
-    given.back().side.ed_frame = 0;
-  }
+// Findings in the views of one fit; the key of the view precedes the name of the region.
+std::vector<RegionFinding> regionsOfFit(const PlantedHeart& heart) {
   HeartFitOptions options;
   options.other_views = false;
-  const HeartFit fit = fitHeart(given, options);
+  const HeartFit fit = fitHeart(heart.given(), options);
   fmt::print("EF {:.3f}, EDV {:.1f} mL, {:.0f} s\n", fit.dials.at("ef"), fit.dials.at("edv"),
              1e-3 * fit.cpu_ms);
   std::vector<RegionFinding> all;
@@ -96,13 +91,13 @@ void runFitted(int hearts, std::size_t views, int first, Counts& counts) {
     int seed = 1000 + 20 * h;
     for (const Defect defect : kDefects) {
       ++seed;
-      std::vector<EchoLoop> loops;
+      PlantedHeart heart{dialsOf(h), {}};
       for (std::size_t v = 0; v < views; ++v)
-        loops.push_back(
-            scannedLoop(defectScene(dialsOf(h), defect, kPlantedViews[v], 20, Look::scanner),
+        heart.loops.push_back(
+            scannedLoop(defectScene(heart.dials, defect, kPlantedViews[v], 20, Look::scanner),
                         kFitFrames, seed + 1000 * static_cast<int>(v)));
       const std::string what = nameOf(defect);
-      tell(fmt::format("{}, heart {}", what, h), regionsOfFit(loops), counts[what]);
+      tell(fmt::format("{}, heart {}", what, h), regionsOfFit(heart), counts[what]);
     }
   }
 }

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "core/parallel.h"
 #include "fit/fit_polish.h"
 #include "fit/own_loop.h"
