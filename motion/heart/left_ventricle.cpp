@@ -23,6 +23,16 @@ double twistShare(double zeta) {
   return zeta - 0.3;
 }
 
+// exp(share M) p, with M = (e, e45; e45, -e) of the ellipticities: areas of sections stay. A share
+// of the other sign turns normals as the same share moves points.
+Vec3d stretched(Vec3d p, const SectionShape& shape, double share) {
+  const double a = share * shape.ellipticity, b = share * shape.ellipticity_45,
+               k = std::hypot(a, b);
+  if (k == 0) return p;
+  const double even = std::cosh(k), odd = std::sinh(k) / k;
+  return {even * p.x + odd * (a * p.x + b * p.y), even * p.y + odd * (b * p.x - a * p.y), p.z};
+}
+
 // All segments at the end of their inward motion.
 Contraction contractionBy(const Parameters& parameters) {
   Contraction contraction{1, {}};
@@ -125,11 +135,19 @@ LeftVentricle::Turned LeftVentricle::turnedOf(const WallPlace& at) const {
   for (std::size_t i = 0; i < at.segment.size(); ++i)
     inward += at.share[i] * contraction_.segments[at.segment[i]];
   if (gradient_ != 0) inward *= std::exp(gradient_ * at.lean);
-  return {std::cos(phi_rad), std::sin(phi_rad), inward, widerAt(at.lean)};
+  return {std::cos(phi_rad), std::sin(phi_rad), inward, widerAt(at.lean), thickerAt(at)};
 }
 
 double LeftVentricle::widerAt(double lean) const {
   return taper_ == 0 ? 1 : std::exp(taper_ * lean);
+}
+
+double LeftVentricle::thickerAt(const WallPlace& at) const {
+  const SectionShape& s = parameters_.section;
+  if (s.apical_thickness == 1 && s.lateral_thickness == 1 && s.anterior_thickness == 1) return 1;
+  return std::pow(s.apical_thickness, at.lean) *
+         std::pow(s.lateral_thickness, 0.5 * (1 + std::cos(at.phi_rad))) *
+         std::pow(s.anterior_thickness, 0.5 * std::sin(at.phi_rad));
 }
 
 double LeftVentricle::radius(const WallPlace& at, const Turned& turned) const {
@@ -139,9 +157,12 @@ double LeftVentricle::radius(const WallPlace& at, const Turned& turned) const {
 
 Vec3d LeftVentricle::placed(const WallPlace& at, const Turned& turned) const {
   const double r = radius(at, turned);
-  const double offset = girth_ * (apex_z_ - ring_z_);
-  return {offset * at.centre_x + r * at.flat * turned.cos_phi,
-          offset * at.centre_y + r / at.flat * turned.sin_phi,
+  const double length = apex_z_ - ring_z_, offset = girth_ * length;
+  const SectionShape& s = parameters_.section;
+  const Vec3d spoke =
+      stretched({r * at.flat * turned.cos_phi, r / at.flat * turned.sin_phi, 0}, s, 0.5 * at.oval);
+  return {offset * at.centre_x + length * s.bow_lateral * at.bow + spoke.x,
+          offset * at.centre_y + length * s.bow_anterior * at.bow + spoke.y,
           std::lerp(ring_z_, apex_z_, at.zeta)};
 }
 
@@ -167,7 +188,8 @@ double LeftVentricle::wallThicknessAt(double phi_rad, double zeta) const {
 // Muscle keeps its volume: (r + h)^2 - r^2, the wall's section about the axis, grows as the length
 // shrinks, r being the cavity's radius and h the wall's thickness.
 double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turned) const {
-  const double h0 = parameters_.wall_thickness_mm * kMillimetre * at.thickness * at.thickness_about;
+  const double h0 = parameters_.wall_thickness_mm * kMillimetre * at.thickness *
+                    at.thickness_about * turned.thicker;
   const double r0 = girth_ * length_ * at.rho * turned.wider;
   const double r = radius(at, turned);
   const double section = h0 * (2 * r0 + h0) * length_ / (apex_z_ - ring_z_);
@@ -180,8 +202,9 @@ double LeftVentricle::unscaledThickness(const WallPlace& at, const Turned& turne
 LeftVentricle::Grown LeftVentricle::grown(const WallPlace& at, const Turned& turned) const {
   const double rise =
       at.after.rho * widerAt(at.after.lean) - at.before.rho * widerAt(at.before.lean);
-  const Vec3d normal =
-      normalised(Vec3d{at.outward * turned.cos_phi, at.outward * turned.sin_phi, girth_ * rise});
+  const Vec3d about = stretched({at.outward * turned.cos_phi, at.outward * turned.sin_phi, 0},
+                                parameters_.section, -0.5 * at.oval);
+  const Vec3d normal = normalised(about + Vec3d{0, 0, girth_ * rise});
   return {placed(at, turned), normal, unscaledThickness(at, turned)};
 }
 

@@ -61,6 +61,7 @@ class LeftVentricle {
  private:
   struct Turned {                            // a place at one instant
     double cos_phi, sin_phi, inward, wider;  // wider: by the taper
+    double thicker;                          // wall, by SectionShape
   };
   struct Grown {  // the wall over a place, before `thickening_`
     Vec3d from, normal;
@@ -70,6 +71,7 @@ class LeftVentricle {
   Turned turnedOf(const WallPlace& at) const;
   WallPlace untwisted(double phi_rad, double zeta) const;
   double widerAt(double lean) const;
+  double thickerAt(const WallPlace& at) const;
   double radius(const WallPlace& at, const Turned& turned) const;
   Vec3d placed(const WallPlace& at, const Turned& turned) const;
   double unscaledThickness(const WallPlace& at, const Turned& turned) const;

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <string_view>
@@ -40,6 +41,26 @@ constexpr Dial kDials[] = {
     {"apical-motion", "1", 0.6, 1.6, 0,
      "inward motion / radius of the left ventricle at 2/3 of its length / the same at 1/3",
      ECHOCINE_DIAL(apical_motion)},
+    {"bow-lateral", "1", -0.08, 0.08, 0,
+     "bow of the left ventricle's axis towards the lateral wall at half length / length",
+     ECHOCINE_DIAL(section.bow_lateral)},
+    {"bow-anterior", "1", -0.08, 0.08, 0, "the same towards the anterior wall",
+     ECHOCINE_DIAL(section.bow_anterior)},
+    {"ellipticity", "1", -0.3, 0.3, 0,
+     "ln of a factor on the septal-lateral / the anterior-inferior diameter of the left ventricle",
+     ECHOCINE_DIAL(section.ellipticity)},
+    {"ellipticity-45", "1", -0.3, 0.3, 0,
+     "the same for the two diameters at 45 degrees, anterolateral / anteroseptal",
+     ECHOCINE_DIAL(section.ellipticity_45)},
+    {"apical-thickness", "1", 0.6, 1.6, 0,
+     "factor on the wall's thickness at 2/3 of the length / at 1/3",
+     ECHOCINE_DIAL(section.apical_thickness)},
+    {"lateral-thickness", "1", 0.6, 1.6, 0,
+     "factor on the thickness of the lateral wall / the septum",
+     ECHOCINE_DIAL(section.lateral_thickness)},
+    {"anterior-thickness", "1", 0.6, 1.6, 0,
+     "factor on the thickness of the anterior wall / the inferior wall",
+     ECHOCINE_DIAL(section.anterior_thickness)},
     {"wall-thickness", "mm", 3, 20, 1, "thickness of the septum at end-diastole",
      ECHOCINE_DIAL(wall_thickness_mm)},
     {"mapse", "mm", 0, 30, 1, "systolic excursion of the mitral ring; default: proportional to ef",
@@ -61,6 +82,10 @@ constexpr Dial kDials[] = {
 };
 
 #undef ECHOCINE_DIAL
+
+constexpr std::string_view kSectionDials[] = {
+    "bow-lateral",      "bow-anterior",      "ellipticity",       "ellipticity-45",
+    "apical-thickness", "lateral-thickness", "anterior-thickness"};
 
 std::string outOfRange(std::string_view key, double value, double low, double high,
                        std::string_view unit) {
@@ -85,6 +110,15 @@ std::string segmentFault(const Parameters& parameters) {
 
 std::span<const Dial> dials() {
   return kDials;
+}
+
+bool isSectionDial(std::string_view key) {
+  return std::find(std::begin(kSectionDials), std::end(kSectionDials), key) !=
+         std::end(kSectionDials);
+}
+
+bool isShapeDial(std::string_view key) {
+  return key == "conicity" || key == "apical-motion" || isSectionDial(key);
 }
 
 Parameters parametersFrom(const std::map<std::string, double>& given) {

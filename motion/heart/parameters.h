@@ -6,6 +6,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace echocine::heart {
 
@@ -18,6 +19,19 @@ struct Segment {
   double delay_s = 0;    // relative to the other segments
 };
 
+// How the left ventricle's sections differ from those of the model, without a change of volume.
+struct SectionShape {
+  // Bow of the long axis at half length, towards the lateral and the anterior wall, over the
+  // length.
+  double bow_lateral = 0, bow_anterior = 0;
+  // ln of the factor on the ratio of a section's diameters: septal-lateral / anterior-inferior, and
+  // at 45 degrees to them, anterolateral / anteroseptal.
+  double ellipticity = 0, ellipticity_45 = 0;
+  // Factors on ratios of the wall's thickness: at 2/3 / at 1/3 of the length, lateral / septal,
+  // anterior / inferior.
+  double apical_thickness = 1, lateral_thickness = 1, anterior_thickness = 1;
+};
+
 // Defaults: a healthy adult, within the reference values of large cohorts.
 struct Parameters {
   double heart_rate_bpm = 65;
@@ -28,10 +42,11 @@ struct Parameters {
   double sphericity = 0.60;            // short-axis diameter / length at end-diastole
   // Apical / basal diameter at end-diastole, at 2/3 and 1/3 of the length; else the outline's own.
   std::optional<double> conicity;
-  double apical_motion = 1;      // inward motion / radius at 2/3 of the length, over that at 1/3
-  double wall_thickness_mm = 9;  // septum at end-diastole
-  double mapse_mm = 13;          // systolic excursion of the mitral ring
-  double twist_deg = 12;         // of the apex relative to the base at end-systole
+  double apical_motion = 1;  // inward motion / radius at 2/3 of the length, over that at 1/3
+  SectionShape section;
+  double wall_thickness_mm = 9;        // septum at end-diastole
+  double mapse_mm = 13;                // systolic excursion of the mitral ring
+  double twist_deg = 12;               // of the apex relative to the base at end-systole
   std::optional<double> atrial_share;  // fraction of the stroke volume filled by the atrial kick;
                                        // default by heart rate
   double mitral_opening = 1, tricuspid_opening = 1, aortic_opening = 1;  // 1: healthy
@@ -54,6 +69,11 @@ struct Dial {
   std::optional<double> (*get)(const Parameters&);
 };
 std::span<const Dial> dials();
+
+// Whether a dial is one of SectionShape.
+bool isSectionDial(std::string_view key);
+// The same, or conicity or apical motion: hearts of version 0.1 lack these dials.
+bool isShapeDial(std::string_view key);
 
 // Largest share of its volume that the right ventricle ejects: it ejects what the left one does.
 inline constexpr double kMostRightEjected = 0.85;

@@ -79,6 +79,15 @@ double thicknessAbout(double phi_rad) {
   return 0.93 + 0.07 * std::cos(phi_rad - 150 * kDegree);
 }
 
+double bowOf(double zeta) {
+  return zeta > 0 ? std::sin(std::numbers::pi * zeta) : 0;
+}
+
+double ovalOf(double zeta) {
+  const double t = std::clamp(zeta / kOvalHeight, 0.0, 1.0);
+  return t * t * (3 - 2 * t);
+}
+
 // Properties of a place that do not depend on its direction.
 WallPlace placeOf(double phi_rad, double zeta, double rho) {
   WallPlace place{phi_rad,
@@ -92,6 +101,8 @@ WallPlace placeOf(double phi_rad, double zeta, double rho) {
                   thicknessAbout(phi_rad),
                   0,
                   leanOf(zeta),
+                  bowOf(zeta),
+                  ovalOf(zeta),
                   {},
                   {},
                   {},

@@ -21,6 +21,9 @@ struct WallPlace {
   // How far the place is towards the apex: -1 at the mitral ring, 1 at the apex, and -1/2 and 1/2
   // at the two heights that conicity compares.
   double lean;
+  // Shares of SectionShape: of a bow, 1 halfway and 0 at the ring and the apex; of an ellipticity,
+  // 1 from kOvalHeight on and 0 at the ring, whose valves keep their shape.
+  double bow, oval;
   // The outline on either side of the place, for its normal; rho is negative beyond an end.
   struct Beside {
     double rho, lean;
@@ -38,6 +41,7 @@ inline constexpr int kWallFrequency = 12;
 const Meridian& wallOutline();
 double leanOf(double zeta);
 
+inline constexpr double kOvalHeight = 0.3;  // zeta; our choice
 // Heights of the diameters that conicity compares, apical / basal: zeta. Our choice; the outline's
 // own ratio is then near the mean of the source of heart_indices.h.
 inline constexpr double kBasalHeight = 1.0 / 3, kApicalHeight = 2.0 / 3;

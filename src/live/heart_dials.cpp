@@ -76,9 +76,7 @@ std::string truthIn(const fs::path& folder) {
 std::optional<std::map<std::string, double>> dialsOf(const Json& parameters) {
   std::map<std::string, double> values;
   for (const heart::Dial& dial : heart::dials()) {
-    const std::string_view key = dial.key;
-    const bool is_new = key == "conicity" || key == "apical-motion";  // since version 0.2
-    if (is_new && !parameters.contains(dial.key)) continue;
+    if (heart::isShapeDial(dial.key) && !parameters.contains(dial.key)) continue;
     if (!parameters.contains(dial.key)) return std::nullopt;
     const Json& entry = parameters[dial.key];
     if (!entry.is_null()) values[dial.key] = entry.at("value").get<double>();

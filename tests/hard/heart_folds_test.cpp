@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include <map>
-#include <string_view>
 
 #include "core/error.h"
 #include "dataset/aim.h"
@@ -40,18 +39,13 @@ FoldExtent extent() {
 #endif
 }
 
-bool isOfShape(const heart::Dial& dial) {
-  const std::string_view key = dial.key;
-  return key == "conicity" || key == "apical-motion";
-}
-
 // Every fourth has all dials given, the others half of them; a third have segments of their own,
 // and a third a shape of their own.
 heart::Parameters randomHeart(std::uint64_t number) {
   support::Dice dice(number), shape(number + 1000000);
   std::map<std::string, double> given;
   for (const heart::Dial& dial : heart::dials()) {
-    if (isOfShape(dial)) {
+    if (heart::isShapeDial(dial.key)) {
       if (number % 3 == 1) given[dial.key] = shape.number(dial.low, dial.high);
       continue;
     }

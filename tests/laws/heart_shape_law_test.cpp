@@ -53,6 +53,90 @@ TEST(HeartShape, TheDefaultIsTheOutlinesOwnConicity) {
   EXPECT_NEAR(heart::outlineConicity(), 0.71, 0.005);  // as the dial's description states
 }
 
+// Bow and ellipticity at end-diastole and end-systole, in healthy and failing hearts: sections have
+// the dialled centre and ratio of diameters, and the area that they have without these dials.
+TEST(HeartShape, SectionsHaveTheDialledCentreAndDiameters) {
+  using support::sectionMoments;
+  struct Case {
+    double lateral, anterior, ellipticity, at_45, ef;
+  };
+  for (const Case& c :
+       {Case{0.05, 0, 0, 0, 0.6}, Case{0, -0.07, 0, 0, 0.3}, Case{0, 0, 0.2, 0, 0.6},
+        Case{0, 0, 0, -0.25, 0.45}, Case{-0.03, 0.04, -0.15, 0.1, 0.65}}) {
+    SCOPED_TRACE(testing::Message() << c.lateral << ' ' << c.ellipticity << ' ' << c.at_45);
+    const heart::Parameters plain = heart::parametersFrom({{"ef", c.ef}, {"twist", 0}}),
+                            dialled = heart::parametersFrom({{"ef", c.ef},
+                                                             {"twist", 0},
+                                                             {"bow-lateral", c.lateral},
+                                                             {"bow-anterior", c.anterior},
+                                                             {"ellipticity", c.ellipticity},
+                                                             {"ellipticity-45", c.at_45}});
+    heart::LeftVentricle usual(plain), left(dialled);
+    const heart::Cycle cycle(plain);
+    for (const double phase : {0.0, cycle.events().aortic_closes}) {
+      usual.contract(cycle.at(phase).left);
+      left.contract(cycle.at(phase).left);
+      const double length_m = left.apexZ() - left.ringZ();
+      EXPECT_NEAR(length_m, usual.apexZ() - usual.ringZ(), 1e-12);
+      for (const double zeta : {0.35, 0.5, 0.8}) {
+        const auto a = sectionMoments(usual, zeta), b = sectionMoments(left, zeta);
+        const double bow = length_m * std::sin(std::numbers::pi * zeta);
+        EXPECT_NEAR(b.centre_m.x - a.centre_m.x, c.lateral * bow, 2e-5);
+        EXPECT_NEAR(b.centre_m.y - a.centre_m.y, c.anterior * bow, 2e-5);
+        EXPECT_NEAR(support::sectionDiameter(left, zeta), support::sectionDiameter(usual, zeta),
+                    2e-5);
+        // Stretched sections of nearly round ones: ratios multiply to first order.
+        if (c.at_45 == 0) {
+          EXPECT_NEAR(std::log(b.diameterRatio(0) / a.diameterRatio(0)), c.ellipticity, 1e-3);
+        }
+        if (c.ellipticity == 0) {
+          const double turn = std::numbers::pi / 4;
+          EXPECT_NEAR(std::log(b.diameterRatio(turn) / a.diameterRatio(turn)), c.at_45,
+                      0.02 * std::abs(c.at_45) + 1e-3);
+        }
+      }
+    }
+  }
+}
+
+// At end-diastole the wall's thickness has the dialled ratios to that of a heart without them, and
+// the septum that of its own dial.
+TEST(HeartShape, TheWallHasTheDialledThickness) {
+  const double apical = 0.7, lateral = 1.3, anterior = 0.8;
+  const heart::LeftVentricle usual{heart::Parameters{}},
+      left(heart::parametersFrom({{"apical-thickness", apical},
+                                  {"lateral-thickness", lateral},
+                                  {"anterior-thickness", anterior}}));
+  const auto thicker = [&](double phi_deg, double zeta) {
+    const double phi_rad = phi_deg * std::numbers::pi / 180;
+    return left.wallThicknessAt(phi_rad, zeta) / usual.wallThicknessAt(phi_rad, zeta);
+  };
+  EXPECT_NEAR(thicker(180, 0.5), 1, 1e-6);
+  EXPECT_NEAR(thicker(0, 0.5), lateral, 1e-6);
+  for (const double phi_deg : {0.0, 75.0, 180.0, 300.0})
+    EXPECT_NEAR(thicker(phi_deg, 2.0 / 3) / thicker(phi_deg, 1.0 / 3), apical, 1e-6) << phi_deg;
+  EXPECT_NEAR(thicker(90, 0.5) / thicker(270, 0.5), anterior, 1e-6);
+}
+
+// Normals of stretched sections are those of their outline: the wall is as thick across it.
+TEST(HeartShape, TheWallGrowsAlongNormalsOfStretchedSections) {
+  const heart::LeftVentricle left(heart::parametersFrom({{"ellipticity", 0.3}}));
+  const heart::LeftVentricle usual{heart::Parameters{}};
+  const auto nearest = [](const heart::LeftVentricle& v, const heart::WallPlace& at) {
+    const Vec3d p = v.wallPoint(at);
+    double least = INFINITY;
+    for (int i = -200; i <= 200; ++i)
+      for (int j = -20; j <= 20; ++j)
+        least = std::min(least, length(p - v.cavityAt(at.phi_rad + i * 0.004, at.zeta + j * 0.01)));
+    return least;
+  };
+  for (const double phi_rad : {0.1, 0.8, 2.3, 4.0}) {
+    const heart::WallPlace at =
+        heart::wallPlaceOf({0.9 * std::cos(phi_rad), 0.9 * std::sin(phi_rad), 0.4359});
+    EXPECT_NEAR(nearest(left, at), nearest(usual, at), 0.03 * nearest(usual, at)) << phi_rad;
+  }
+}
+
 // Against a meridian that is computed from tapered knots.
 TEST(HeartShape, TheSizeOfATaperedOutlineIsThatOfItsMeridian) {
   for (const double taper : {-0.35, -0.1, 0.0, 0.2, 0.35}) {

@@ -100,7 +100,14 @@ INSTANTIATE_TEST_SUITE_P(EndDiastolic_mL, HeartVolumeLaw, testing::Values(80, 12
 // Also of the shapes at the limits of what a population has.
 TEST(HeartVolumes, DialsAreWhatTheFilesEncloseInOtherShapes) {
   for (const Dials& shape : {Dials{{"conicity", 0.55}, {"apical-motion", 1.3}, {"ef", 0.4}},
-                             Dials{{"conicity", 0.93}, {"apical-motion", 0.75}, {"ef", 0.65}}})
+                             Dials{{"conicity", 0.93}, {"apical-motion", 0.75}, {"ef", 0.65}},
+                             Dials{{"bow-lateral", 0.04},
+                                   {"bow-anterior", -0.03},
+                                   {"ellipticity", 0.2},
+                                   {"ellipticity-45", -0.1},
+                                   {"apical-thickness", 0.8},
+                                   {"lateral-thickness", 1.25},
+                                   {"anterior-thickness", 0.85}}})
     expectDialled(heart::parametersFrom(shape));
 }
 
