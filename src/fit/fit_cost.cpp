@@ -34,7 +34,8 @@ FitCost::FitCost(std::vector<FitSide> sides, const std::map<std::string, double>
                  double tilt_deg, FitMemory memory)
     : sides_(std::move(sides)), fixed_(dials), tilts_(tilt_deg > 0), memory_(std::move(memory)) {
   for (const DialRange& range : sides_.front().family->ranges())
-    unknowns_.push_back({range.key, range.low, range.high, stepOf(range)});
+    unknowns_.push_back(
+        {range.key, range.low, range.high, stepOf(range), heart::isSectionDial(range.key)});
   dials_ = unknowns_.size();
   constexpr double kTiltStep_deg = 2.5, kRotateStep_deg = 4;
   for (std::size_t v = 0; tilts_ && v < sides_.size(); ++v) {
@@ -48,6 +49,16 @@ std::vector<std::size_t> FitCost::unknownsOf(std::size_t view) const {
   for (std::size_t i = 0; i < dials_; ++i) out.push_back(i);
   if (tilts_) out.insert(out.end(), {dials_ + 2 * view, dials_ + 2 * view + 1});
   return out;
+}
+
+std::vector<std::size_t> FitCost::freeOf(std::size_t view) const {
+  std::vector<std::size_t> out = unknownsOf(view);
+  std::erase_if(out, [&](std::size_t i) { return unknowns_[i].held; });
+  return out;
+}
+
+void FitCost::searchSections() {
+  for (FitUnknown& u : unknowns_) u.held = false;
 }
 
 std::vector<double> FitCost::searchedAt(const std::vector<double>& at) const {
@@ -116,8 +127,10 @@ FitPlace FitCost::at(const std::vector<double>& at, const std::vector<PoseFound>
 std::vector<double> FitCost::moved(const std::vector<double>& from,
                                    const std::vector<double>& steps) const {
   std::vector<double> out = from;
-  for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = std::clamp(out[i] + unknowns_[i].step * steps[i], unknowns_[i].low, unknowns_[i].high);
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const FitUnknown& u = unknowns_[i];
+    if (!u.held) out[i] = std::clamp(out[i] + u.step * steps[i], u.low, u.high);
+  }
   return out;
 }
 
@@ -151,7 +164,7 @@ std::vector<double> FitCost::middleOf(const std::vector<double>& at) const {
   std::vector<double> middle = at;
   for (std::size_t i = 0; i < middle.size(); ++i) {
     const FitUnknown& u = unknowns_[i];
-    middle[i] = std::clamp(middle[i], u.low + u.step, u.high - u.step);
+    if (!u.held) middle[i] = std::clamp(middle[i], u.low + u.step, u.high - u.step);
   }
   return middle;
 }
@@ -170,7 +183,7 @@ Quadratic FitCost::viewAround(std::size_t view, const PoseFound& from,
     });
     return out;
   };
-  return differencesOf(unknowns_.size(), unknownsOf(view), values, mixed);
+  return differencesOf(unknowns_.size(), freeOf(view), values, mixed);
 }
 
 std::vector<Quadratic> FitCost::viewsAround(const FitPlace& place,
@@ -200,7 +213,7 @@ std::vector<double> FitCost::slopesAt(const FitPlace& place, const Monitor& moni
   };
   std::vector<Difference> all;
   for (std::size_t v = 0; v < views(); ++v)
-    for (const std::size_t u : unknownsOf(v)) all.push_back({v, u});
+    for (const std::size_t u : freeOf(v)) all.push_back({v, u});
   const auto slopeOf = [&](std::size_t unknown, const auto& cost) {
     const auto [low, high] = besideIn(unknown, place.at);
     return (cost(high) - cost(low)) / (high[unknown] - low[unknown]);
@@ -217,7 +230,9 @@ std::vector<double> FitCost::slopesAt(const FitPlace& place, const Monitor& moni
   });
   std::vector<double> out;
   for (std::size_t u = 0; u < unknowns_.size(); ++u)
-    out.push_back(slopeOf(u, [&](const std::vector<double>& at) { return priorCost(at); }));
+    out.push_back(unknowns_[u].held ? 0 : slopeOf(u, [&](const std::vector<double>& at) {
+      return priorCost(at);
+    }));
   for (std::size_t i = 0; i < all.size(); ++i) out[all[i].unknown] += slopes[i];
   return out;
 }

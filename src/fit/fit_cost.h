@@ -24,6 +24,7 @@ struct FitUnknown {
   // For differences: J rises by several units, well above its noise of 0.5 (D changes by 0.0004
   // with the refined pose).
   double step = 1;
+  bool held = false;  // stays where it is
 };
 
 struct FitPlace {
@@ -88,6 +89,8 @@ class FitCost {
   FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials, double tilt_deg,
           FitMemory memory = {});
 
+  // The dials of heart::SectionShape are held at first.
+  void searchSections();
   const std::vector<FitUnknown>& unknowns() const { return unknowns_; }
   std::size_t dials() const { return dials_; }  // the first unknowns
   std::size_t views() const { return sides_.size(); }
@@ -105,8 +108,9 @@ class FitCost {
   double priorCost(const std::vector<double>& at) const;
   // A view's part of J at a place, with the pose found there.
   double viewCost(std::size_t view, const std::vector<double>& at, const PoseFound& found) const;
-  // All dials, and the plane of this view.
+  // All dials, and the plane of this view; those of them that are not held.
   std::vector<std::size_t> unknownsOf(std::size_t view) const;
+  std::vector<std::size_t> freeOf(std::size_t view) const;
   // A view's part of J without the prior, by differences about middleOf() a place, in steps. The
   // mixed derivatives of earlier ones are kept; empty: all are computed. Runs in parallel.
   std::vector<Quadratic> viewsAround(const FitPlace& place, const std::vector<Quadratic>& mixed,
@@ -114,7 +118,8 @@ class FitCost {
   // Values of the unknowns with one of them kSlopeStep lower, and higher, within the limits.
   std::array<std::vector<double>, 2> besideIn(std::size_t unknown,
                                               const std::vector<double>& at) const;
-  // Slopes of J in the units of the unknowns, by differences between besideIn(). Runs in parallel.
+  // Slopes of J in the units of the unknowns, by differences between besideIn(); 0 of held ones.
+  // Runs in parallel.
   std::vector<double> slopesAt(const FitPlace& place, const Monitor& monitor) const;
   // The nearest place whose differences stay within the limits.
   std::vector<double> middleOf(const std::vector<double>& at) const;
@@ -123,7 +128,7 @@ class FitCost {
   Quadratic sumOf(const std::vector<Quadratic>& views, const std::vector<double>& place) const;
   // Inverse of H in the units of the unknowns, row by row.
   std::vector<double> covariance(const Quadratic& q) const;
-  // Values of the unknowns, given in steps from a place, within the limits.
+  // Values of the unknowns, given in steps from a place, within the limits. Held ones stay.
   std::vector<double> moved(const std::vector<double>& from,
                             const std::vector<double>& steps) const;
   // Where a quadratic, in steps from a place, is least within the limits and so many steps of each

@@ -48,7 +48,7 @@ void addDialHints(HeartFit& fit) {
       fit.hints.push_back(fmt::format(
           "{} is at its limit {:.4g}: the heart may lie beyond; another view would help", dial.key,
           dial.value));
-    if (!dial.determined)
+    if (!dial.determined && !heart::isSectionDial(dial.key))
       fit.hints.push_back(
           fmt::format("{} is not determined by the loops: its value is the prior's; another view "
                       "would help",

@@ -24,17 +24,23 @@ FitPlace lowestOf(const std::vector<FitPlace>& places) {
                            [](const FitPlace& a, const FitPlace& b) { return a.cost < b.cost; });
 }
 
-// Principal axes of a covariance, in steps of the unknowns.
+// Principal axes of a covariance of the unknowns that are not held, in steps.
 class Axes {
  public:
   Axes(const FitCost& cost, const std::vector<double>& covariance, double width)
       : cost_(cost), width_(width) {
-    const auto n = static_cast<int>(cost.unknowns().size());
+    const std::size_t all = cost.unknowns().size();
+    for (std::size_t i = 0; i < all; ++i)
+      if (!cost.unknowns()[i].held) free_.push_back(i);
+    const auto n = static_cast<int>(free_.size());
     cv::Mat c(n, n, CV_64F);
     for (int i = 0; i < n; ++i)
-      for (int j = 0; j < n; ++j)
+      for (int j = 0; j < n; ++j) {
+        const std::size_t u = free_[static_cast<std::size_t>(i)],
+                          v = free_[static_cast<std::size_t>(j)];
         c.at<double>(i, j) =
-            covariance[static_cast<std::size_t>(i * n + j)] / stepOf(i) / stepOf(j);
+            covariance[u * all + v] / cost.unknowns()[u].step / cost.unknowns()[v].step;
+      }
     cv::Mat variance;
     cv::eigen(0.5 * (c + c.t()), variance, rows_);
     constexpr double kLeast = 1e-3;
@@ -46,12 +52,12 @@ class Axes {
   // A draw of the normal distribution, `width` times as wide.
   std::vector<double> draw(std::size_t round, std::size_t pair) const {
     constexpr std::uint64_t kSeed = 22;
-    std::vector<double> out(sds_.size(), 0);
+    std::vector<double> out(cost_.unknowns().size(), 0);
     for (std::size_t a = 0; a < sds_.size(); ++a) {
       const double z =
           width_ * sds_[a] *
           normalFromHashes(hashOf(kSeed, round, pair, a, 0), hashOf(kSeed, round, pair, a, 1));
-      for (std::size_t i = 0; i < out.size(); ++i) out[i] += z * component(a, i);
+      for (std::size_t i = 0; i < free_.size(); ++i) out[free_[i]] += z * component(a, i);
     }
     return out;
   }
@@ -61,29 +67,32 @@ class Axes {
     double sum = 0;
     for (std::size_t a = 0; a < sds_.size(); ++a) {
       double along = 0;
-      for (std::size_t i = 0; i < u.size(); ++i) along += u[i] * component(a, i);
+      for (std::size_t i = 0; i < free_.size(); ++i) along += u[free_[i]] * component(a, i);
       sum += along * along / (sds_[a] * sds_[a]);
     }
     return sum;
   }
 
-  double sdOf(std::size_t unknown) const {
-    double sum = 0;
-    for (std::size_t a = 0; a < sds_.size(); ++a)
-      sum += std::pow(sds_[a] * component(a, unknown), 2);
-    return std::sqrt(sum);
+  // By unknown; 0 of held ones.
+  std::vector<double> sds() const {
+    std::vector<double> out(cost_.unknowns().size(), 0);
+    for (std::size_t i = 0; i < free_.size(); ++i) {
+      double sum = 0;
+      for (std::size_t a = 0; a < sds_.size(); ++a) sum += std::pow(sds_[a] * component(a, i), 2);
+      out[free_[i]] = std::sqrt(sum);
+    }
+    return out;
   }
+  std::size_t size() const { return free_.size(); }
 
  private:
-  double stepOf(int unknown) const {
-    return cost_.unknowns()[static_cast<std::size_t>(unknown)].step;
-  }
-  double component(std::size_t axis, std::size_t unknown) const {
-    return rows_.at<double>(static_cast<int>(axis), static_cast<int>(unknown));
+  double component(std::size_t axis, std::size_t i) const {
+    return rows_.at<double>(static_cast<int>(axis), static_cast<int>(i));
   }
 
   const FitCost& cost_;
   double width_;
+  std::vector<std::size_t> free_;
   cv::Mat rows_;
   std::vector<double> sds_;
 };
@@ -91,7 +100,7 @@ class Axes {
 // Evaluated in parallel; both places of each pair.
 std::vector<FitPlace> placesAbout(const FitCost& cost, const FitPlace& middle, const Axes& axes,
                                   std::size_t round, const Monitor& monitor) {
-  std::vector<FitPlace> out(2 * polishPairs(cost.unknownsOf(0).size()));
+  std::vector<FitPlace> out(2 * polishPairs(cost.freeOf(0).size()));
   parallelBlocks(out.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t k = begin; k < end; ++k) {
       if (!monitor.keep_going()) throw JobError("stopped while a heart was fitted");
@@ -128,8 +137,9 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
     steps.push_back(cost.stepsBetween(middle, place.at));
     squares.push_back(axes.squareOf(steps.back()));
   }
-  const std::vector<double> weights = weightsOf(squares, 2 * static_cast<double>(n) * width * width,
-                                                2 * polishPairs(cost.unknownsOf(0).size()));
+  const std::vector<double> weights =
+      weightsOf(squares, 2 * static_cast<double>(axes.size()) * width * width,
+                2 * polishPairs(cost.freeOf(0).size()));
   std::vector<WeightedValue> values;
   std::vector<const FitPlace*> used;
   for (std::size_t k = 0; k < places.size(); ++k) {
@@ -141,7 +151,7 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
   for (std::size_t v = 0; v < cost.views(); ++v) {
     for (std::size_t k = 0; k < values.size(); ++k)
       values[k].value = cost.viewCost(v, used[k]->at, used[k]->found[v]);
-    views.push_back(regressionOf(n, cost.unknownsOf(v), values));
+    views.push_back(regressionOf(n, cost.freeOf(v), values));
   }
   return cost.sumOf(views, middle);
 }
@@ -149,8 +159,7 @@ Quadratic regressionAbout(const FitCost& cost, const std::vector<double>& middle
 FitPlace minimumOf(const FitCost& cost, const Quadratic& q, const FitPlace& middle,
                    const Axes& axes, double width) {
   std::vector<double> farthest;
-  for (std::size_t i = 0; i < middle.at.size(); ++i)
-    farthest.push_back(kFarthest * width * axes.sdOf(i));
+  for (const double sd : axes.sds()) farthest.push_back(kFarthest * width * sd);
   return cost.at(cost.minimumNear(q, middle.at, farthest), middle.found);
 }
 

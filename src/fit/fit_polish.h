@@ -17,7 +17,8 @@ constexpr std::size_t polishPairs(std::size_t unknowns) {
 // Each round evaluates J at pairs of places, c + x and c - x, about the best place c. x is drawn
 // from the normal distribution of the covariance of J's curvature, s times as wide, where s falls
 // from 2.5 to 1.5. A quadratic of each view is fitted to all places by Eq. 22, with weights
-// exp(-d^2 / (2 n s^2)); d is the distance from c in standard deviations, n the number of unknowns.
+// exp(-d^2 / (2 n s^2)); d is the distance from c in standard deviations, n the number of unknowns
+// that are not held.
 // The round ends at the minimum of the sum, or at a drawn place that is clearly lower. These
 // numbers are our choice. J is rough: descents by differences ended up to 57 above the lowest J of
 // a planted heart that was found. Draws are hashes of round, pair and unknown. Without a

@@ -224,7 +224,7 @@ bool makePossible(const FitCost& cost, std::vector<double>& at) {
   for (; moves < kMostMoves && !exists(cost.dialsAt(at)); ++moves)
     for (std::size_t i = 0; i < cost.dials(); ++i) {
       const FitUnknown& u = cost.unknowns()[i];
-      at[i] += kPart * (0.5 * (u.low + u.high) - at[i]);
+      if (!u.held) at[i] += kPart * (0.5 * (u.low + u.high) - at[i]);
     }
   return moves > 0;
 }

@@ -6,10 +6,13 @@
 #include <opencv2/core.hpp>
 
 #include "core/check.h"
+#include "core/hash_random.h"
 
 namespace echocine::fit {
 
 namespace {
+
+constexpr std::size_t kCubic = 2;  // dials of degree 3: the first
 
 // Chebyshev-Lobatto: ends included, dense towards them, so the polynomial stays tame.
 double nodeOf(int node, int nodes) {
@@ -50,23 +53,48 @@ std::vector<std::vector<double>> latticeOf(std::size_t dials, int nodes) {
   return out;
 }
 
-// Total degree 2, and 3 in the first two dials.
-std::vector<std::vector<int>> powersFor(std::size_t dials) {
+// Total degree 2, and 3 in the first two dials. Dials of the sections have degree 1, alone and
+// times the first two.
+std::vector<std::vector<int>> powersFor(const std::vector<DialRange>& ranges) {
   std::vector<std::vector<int>> out;
-  const auto total = [](const std::vector<int>& p) {
-    int sum = 0;
-    for (const int one : p) sum += one;
-    return sum;
+  std::vector<int> p(ranges.size(), 0);
+  const auto addWith = [&](std::size_t a, std::size_t b, std::size_t c) {
+    p.assign(ranges.size(), 0);
+    for (const std::size_t dial : {a, b, c})
+      if (dial < p.size()) ++p[dial];
+    if (std::find(out.begin(), out.end(), p) == out.end()) out.push_back(p);
   };
-  std::vector<int> p(dials, 0);
-  for (;;) {
-    int of_first = 0;
-    for (std::size_t r = 0; r < std::min<std::size_t>(2, dials); ++r) of_first += p[r];
-    if (total(p) <= 2 || (total(p) == 3 && of_first == 3)) out.push_back(p);
-    std::size_t r = 0;
-    while (r < dials && ++p[r] > 3) p[r++] = 0;
-    if (r == dials) return out;
+  const std::size_t n = ranges.size(), none = n;
+  const auto isLinear = [&](std::size_t dial) {
+    return dial >= kCubic && heart::isSectionDial(ranges[dial].key);
+  };
+  addWith(none, none, none);
+  for (std::size_t a = 0; a < n; ++a) {
+    addWith(a, none, none);
+    for (std::size_t b = 0; b <= a; ++b)
+      if (b < kCubic || !(isLinear(a) || isLinear(b))) addWith(a, b, none);
   }
+  for (std::size_t a = 0; a < std::min(n, kCubic); ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      for (std::size_t c = 0; c <= b; ++c) addWith(a, b, c);
+  // By the last dial first.
+  std::sort(out.begin(), out.end(), [](const auto& one, const auto& other) {
+    return std::lexicographical_compare(one.rbegin(), one.rend(), other.rbegin(), other.rend());
+  });
+  return out;
+}
+
+// Places that a polynomial may take.
+std::vector<std::vector<double>> candidatesOf(std::size_t dials) {
+  constexpr int kNodes = 4;
+  constexpr std::size_t kMostOfLattice = 9, kDraws = std::size_t{1} << 16;
+  if (dials <= kMostOfLattice) return latticeOf(dials, kNodes);
+  constexpr std::uint64_t kSeed = 15;
+  std::vector<std::vector<double>> out(kDraws);
+  for (std::size_t i = 0; i < kDraws; ++i)
+    for (std::size_t r = 0; r < dials; ++r)
+      out[i].push_back(nodeOf(static_cast<int>(hashOf(kSeed, i, r) % kNodes), kNodes));
+  return out;
 }
 
 double chebyshev(int degree, double t) {
@@ -97,9 +125,8 @@ HeartDesign HeartDesign::grid(const std::vector<DialRange>& ranges, int nodes) {
 HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   HeartDesign out;
   out.ranges_ = ranges;
-  out.powers_ = powersFor(ranges.size());
-  constexpr int kLatticeNodes = 4;
-  const std::vector<std::vector<double>> lattice = latticeOf(ranges.size(), kLatticeNodes);
+  out.powers_ = powersFor(ranges);
+  const std::vector<std::vector<double>> lattice = candidatesOf(ranges.size());
   const int terms = static_cast<int>(out.powers_.size());
   cv::Mat rows(static_cast<int>(lattice.size()), terms, CV_64F);
   for (int i = 0; i < rows.rows; ++i)
@@ -150,10 +177,10 @@ void HeartDesign::settle() {
   cv::Mat inverse;
   cv::invert(all, inverse, cv::DECOMP_SVD);  // pseudo-inverse: terms x places
   solver_.assign(inverse.begin<double>(), inverse.end<double>());
-  // Over the lattice, where polynomials are largest; the margin covers places between.
+  // Over the candidates, where polynomials are largest; the margin covers other places.
   constexpr double kMargin = 1.1;
   overshoot_ = 1;
-  for (const std::vector<double>& place : latticeOf(ranges_.size(), 4)) {
+  for (const std::vector<double>& place : candidatesOf(ranges_.size())) {
     double sum = 0;
     for (const double share : sharesOf(place)) sum += std::abs(share);
     overshoot_ = std::max(overshoot_, kMargin * sum);

@@ -12,9 +12,11 @@ class HeartDesign {
   HeartDesign() = default;
   // Every combination of Chebyshev-Lobatto nodes, the first dial fastest. Shares interpolate.
   static HeartDesign grid(const std::vector<DialRange>& ranges, int nodes);
-  // Places for a polynomial of total degree 2 in all dials and 3 in the first two: the centre, then
-  // one at a time the place of a 4^n lattice where the polynomial is least certain (Fedorov, Theory
-  // of Optimal Experiments, 1972), a fifth more than terms. Shares are those of least squares.
+  // Places for a polynomial of total degree 2 in all dials and 3 in the first two; later
+  // dials of heart::SectionShape have degree 1, alone and times the first two. The centre, then one
+  // at a time the place of a 4^n lattice where the polynomial is least certain (Fedorov, Theory of
+  // Optimal Experiments, 1972), a fifth more than terms. With more than nine dials, the
+  // candidates are 4^8 draws of the lattice. Shares are those of least squares.
   static HeartDesign polynomial(const std::vector<DialRange>& ranges);
 
   std::size_t size() const { return places_.size(); }

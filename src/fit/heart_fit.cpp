@@ -162,6 +162,12 @@ std::vector<double> middleOf(const std::vector<DialRange>& ranges) {
   return middle;
 }
 
+std::size_t sectionsIn(const std::vector<DialRange>& ranges) {
+  return static_cast<std::size_t>(
+      std::count_if(ranges.begin(), ranges.end(),
+                    [](const DialRange& r) { return heart::isSectionDial(r.key); }));
+}
+
 void keepPossible(const FitCost& cost, FitDescent& best, HeartFit& fit) {
   if (makePossible(cost, best.best.at))
     fit.hints.emplace_back(
@@ -221,7 +227,8 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   fit.fixed = fit.dials;
   fit.tilt_deg = options.tilt_deg;
   const HeartDesign design = HeartDesign::polynomial(rangesOf(options, loops.size()));
-  const FitStages stages(loops.size(), design.size(), design.ranges().size(), options);
+  const FitStages stages(loops.size(), design.size(), design.ranges().size(),
+                         sectionsIn(design.ranges()), options);
   FitProgress progress(monitor, stages.all());
   FittedSides sides = [&] {
     const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),
@@ -238,6 +245,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
     // The best start finds the beat anew.
     sides.compare(loops, cost.searchedAt(starts.places.front().at));
     cost = FitCost(sides.refer(), fit.dials, options.tilt_deg, {options.journal, "descents"});
+    if (!options.ownLook(loops.size())) cost.searchSections();
     descents = descentsFrom(cost, starts.places, stages, progress);
     fit.stopped = anyStopped(descents);
   });

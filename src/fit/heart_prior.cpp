@@ -34,7 +34,8 @@ std::optional<std::size_t> priorDialOf(const std::string& key) {
 }
 
 double LonePrior::logDensity(double value) const {
-  const double z = std::log(value / median) / log_sd;
+  if (median == 0) return -0.5 * (value / spread) * (value / spread);
+  const double z = std::log(value / median) / spread;
   return -0.5 * z * z - std::log(value);
 }
 

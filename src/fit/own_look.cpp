@@ -76,7 +76,7 @@ ExpectedSlope slopeIn(const OwnDiscrepancies& own, const std::vector<std::array<
         return meanDiscrepancy(loops, modelAt(at));
       };
       const double low = places[i][0], high = places[i][2];
-      slopes[i] = (discrepancyAt(high) - discrepancyAt(low)) / (high - low);
+      if (high > low) slopes[i] = (discrepancyAt(high) - discrepancyAt(low)) / (high - low);
     }
   });
   return {middle, std::move(slopes)};

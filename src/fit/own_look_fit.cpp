@@ -42,7 +42,14 @@ class LookRounds {
         plain_(plain) {}
 
   FitCost costOf(const std::string& stage) const {
-    return {sides_.refer(), plain_.fixed(), options_.tilt_deg, {options_.journal, stage}};
+    FitCost cost(sides_.refer(), plain_.fixed(), options_.tilt_deg, {options_.journal, stage});
+    if (sections_) cost.searchSections();
+    return cost;
+  }
+  // From now on.
+  void searchSections() {
+    sections_ = true;
+    plain_.searchSections();
   }
 
   // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
@@ -50,8 +57,10 @@ class LookRounds {
     FitDescent& descent = one.descent;
     one.stage = std::move(stage);
     if (!measure(one, 0)) return false;
-    descent = polishFit(costOf(one.stage), std::move(descent),
-                        progress_.next(stages_.polish(kFirstPolishRounds)), kFirstPolishRounds);
+    descent = polishFit(
+        costOf(one.stage), std::move(descent),
+        progress_.next(sections_ ? stages_.lastPolish() : stages_.polish(kFirstPolishRounds)),
+        kFirstPolishRounds);
     return !descent.stopped;
   }
 
@@ -102,7 +111,8 @@ class LookRounds {
   const HeartFitOptions& options_;
   const FitStages& stages_;
   FitProgress& progress_;
-  const FitCost& plain_;  // only for its unknowns: its sides change
+  FitCost plain_;  // only for its unknowns: its sides change
+  bool sections_ = false;
 };
 
 // Descents from the lowest one with the tilt of one plane mirrored, plane by plane. Two planes that
@@ -150,6 +160,7 @@ bool addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
     return a.descent.best.cost < b.descent.best.cost;
   });
   const double before = all.front().descent.best.cost;
+  rounds.searchSections();
   if (!rounds.add(all.front(), "own look again") || !rounds.settle(all.front())) return false;
   // J of the others is comparable with that of the first round.
   const double change = all.front().descent.best.cost - before;

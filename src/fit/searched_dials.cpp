@@ -5,19 +5,33 @@
 namespace echocine::fit {
 
 const std::vector<SearchedDial>& searchedDials() {
-  static const std::vector<SearchedDial> kDials{
-      {{"ef", 0.15, 0.75}, 0.05},       {{"edv", 50, 280}, 10},
-      {{"wall-thickness", 5, 15}, 1.5}, {{"sphericity", 0.46, 0.78}, 0.04},
-      {{"mapse", 3, 20}, 2.5},          {{"conicity", 0.55, 0.95}, 0.05},
-      {{"la-volume", 20, 130}, 8},      {{"apical-motion", 0.65, 1.5}, 0.12},
-      {{kRightRatio, 0.8, 1.35}, 0.06}};
+  static const std::vector<SearchedDial> kDials{{{"ef", 0.15, 0.75}, 0.05},
+                                                {{"edv", 50, 280}, 10},
+                                                {{"wall-thickness", 5, 15}, 1.5},
+                                                {{"sphericity", 0.46, 0.78}, 0.04},
+                                                {{"mapse", 3, 20}, 2.5},
+                                                {{"conicity", 0.55, 0.95}, 0.05},
+                                                {{"la-volume", 20, 130}, 8},
+                                                {{"apical-motion", 0.65, 1.5}, 0.12},
+                                                {{kRightRatio, 0.8, 1.35}, 0.06},
+                                                {{"bow-lateral", -0.06, 0.06}, 0.01},
+                                                {{"bow-anterior", -0.06, 0.06}, 0.01},
+                                                {{"ellipticity", -0.3, 0.3}, 0.05},
+                                                {{"ellipticity-45", -0.3, 0.3}, 0.05},
+                                                {{"apical-thickness", 0.7, 1.3}, 0.12},
+                                                {{"lateral-thickness", 0.7, 1.3}, 0.12},
+                                                {{"anterior-thickness", 0.7, 1.3}, 0.12}};
   return kDials;
 }
 
 std::vector<std::string> dialsSearchedIn(std::size_t views) {
   std::vector<std::string> keys{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
   if (views > 1) keys.emplace_back("conicity");
-  if (views > 2) keys.insert(keys.end(), {"apical-motion", kRightRatio});
+  if (views > 2) {
+    keys.insert(keys.end(), {"apical-motion", kRightRatio});
+    for (const SearchedDial& dial : searchedDials())
+      if (heart::isSectionDial(dial.range.key)) keys.push_back(dial.range.key);
+  }
   return keys;
 }
 

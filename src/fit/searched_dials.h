@@ -15,12 +15,13 @@ struct SearchedDial {
 };
 
 // Adult hearts, failing to vigorous. Our choice. The keys of kPriorDials in their order, then the
-// left atrium, which the right one follows, apical motion and the right ventricle.
+// left atrium, which the right one follows, apical motion, the right ventricle, and the dials of
+// heart::SectionShape.
 const std::vector<SearchedDial>& searchedDials();
 
 // Those that a fit searches by default: ejection fraction, volume, wall, sphericity and ring; in
-// two views also conicity, and in three apical motion and the right ventricle's volume too. Fewer
-// views do not determine them.
+// two views also conicity, and in three apical motion, the right ventricle's volume and the dials
+// of heart::SectionShape too. Fewer views do not determine them.
 std::vector<std::string> dialsSearchedIn(std::size_t views);
 
 // Adds dials that follow searched ones: the right atrium's volume the left one's. Replaces

@@ -32,7 +32,7 @@ using Ranges = std::vector<std::tuple<std::string, double, double>>;
 using Dials = std::map<std::string, double>;
 
 // Four nodes of each dial, from which a polynomial's hearts are chosen: 65,536 places. Our choice.
-constexpr std::size_t kMostRanges = 8;
+constexpr std::size_t kMostRanges = 16;
 
 fit::Focus focusFrom(const std::string& word) {
   if (word == "all") return fit::Focus::all;

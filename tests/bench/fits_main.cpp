@@ -2,7 +2,8 @@
 // the model error of Eq. 15 and how many intervals hold the planted value. Keys: `first`, number of
 // the first heart; `degrees`, limit of tilts and rotations of the planes; `dials`, those searched,
 // separated by commas; `look`, that of the planted loops; `own_look` and `own_loops`, 1 or 0: with
-// or without. fit_table VIEWS foreign [KEY=VALUE ...]: the same for meshes of other people.
+// or without; `sections`, 1: hearts have other sections and walls than the models.
+// fit_table VIEWS foreign [KEY=VALUE ...]: the same for meshes of other people.
 
 #include <fmt/format.h>
 
@@ -97,6 +98,12 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
       "error {:+.1f} %; {:.0f} s\n",
       number, fit.ef->value, true_ef, ef_error, own("ef"), fit.edv_ml->value, true_edv,
       100 * edv_error, 100 * own("edv") / true_edv, 1e-3 * fit.cpu_ms);
+  for (const DialFound& dial : fit.found) {
+    const auto planted = heart.dials.find(dial.key);
+    fmt::print("  {} {:.3f} ({:.3f})", dial.key, dial.value, dial.sd);
+    if (planted != heart.dials.end()) fmt::print(" for {:.3f}", planted->second);
+  }
+  fmt::print("\n");
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
   fmt::print("  look {}, agreement {:.2f}\n", nameOf(fit.rendered_as), fit.agreement.value_or(-1));
   for (const ViewFitted& view : fit.views) {
@@ -119,12 +126,12 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
 
 constexpr const char* kUsage =
     "fit_table VIEWS HEARTS|foreign [first=N] [degrees=D] [dials=A,B] [look=LOOK] [own_look=0] "
-    "[own_loops=0]";
+    "[own_loops=0] [sections=1]";
 
 int run(int argc, char** argv) {
-  std::map<std::string, std::string> given{{"first", "0"},   {"degrees", ""},
-                                           {"dials", ""},    {"look", "scanner"},
-                                           {"own_look", ""}, {"own_loops", "1"}};
+  std::map<std::string, std::string> given{
+      {"first", "0"},   {"degrees", ""},    {"dials", ""},    {"look", "scanner"},
+      {"own_look", ""}, {"own_loops", "1"}, {"sections", "0"}};
   bool known = argc >= 3;
   for (int i = 3; i < argc; ++i) {
     const std::vector<std::string> parts = splitOption(argv[i], '=');
@@ -151,6 +158,10 @@ int run(int argc, char** argv) {
       int n = 0;
       for (const double deg : {0.0, most_deg})
         for (const ForeignHeart& heart : kForeignHearts) {
+          if (n < first) {
+            ++n;
+            continue;
+          }
           fmt::print("{}, planes off by up to {:g} degrees\n", heart.name, deg);
           tellFit(n, foreignHeart(heart.in, n, views, deg), options, ef, edv, gls);
           ++n;
@@ -158,7 +169,8 @@ int run(int argc, char** argv) {
       return;
     }
     for (int n = first; n < first + hearts; ++n)
-      tellFit(n, plantedHeart(n, views, most_deg, *look), options, ef, edv, gls);
+      tellFit(n, plantedHeart(n, views, most_deg, *look, given["sections"] != "0"), options, ef,
+              edv, gls);
   });
   ef.print();
   edv.print();

@@ -99,7 +99,12 @@ def test_the_parts_of_a_fit_have_its_cost(real, tmp_path):
 def test_the_prior_of_hearts():
     prior = echocine.HeartPrior()
     mean, sd = prior.mean, prior.sd
-    assert mean.keys() == sd.keys() == {"ef", "edv", "wall_thickness", "sphericity", "mapse", "conicity", "la_volume", "apical_motion", "rv_ratio"}
+    joint = {"ef", "edv", "wall_thickness", "sphericity", "mapse", "conicity"}
+    sections = {"bow_lateral", "bow_anterior", "ellipticity", "ellipticity_45", "apical_thickness", "lateral_thickness", "anterior_thickness"}
+    assert mean.keys() == sd.keys() == joint | sections | {"la_volume", "apical_motion", "rv_ratio"}
+    assert mean["bow_lateral"] == 0 and sd["bow_lateral"] == 0.03
+    # A normal dial.
+    assert prior.log_density(ellipticity=0) - prior.log_density(ellipticity=-0.15) == pytest.approx(0.5, abs=1e-9)
     draws = [prior.draw(1, n) for n in range(2000)]
     assert prior.draw(1, 7) == draws[7] != prior.draw(2, 7)
     for dial in draws[0]:
@@ -215,7 +220,7 @@ def other(at, value):
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, hr=1000), "dials: hr is 1000, accepted"),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6)}, "a5x"), "view: is \"a5x\", accepted: \"a4c\""),
     (lambda f, m, r: echocine.HeartFamily({"ef": (0.4, 0.6), "edv": (90, 100), "hr": (60, 70), "mapse": (9, 12), "ef ": (0.4, 0.6)}), "ranges: \"ef \" is not a dial"),
-    (lambda f, m, r: echocine.HeartFamily({f"ef{n}": (0.4, 0.6) for n in range(9)}), "ranges: holds 9, accepted: up to 8"),
+    (lambda f, m, r: echocine.HeartFamily({f"ef{n}": (0.4, 0.6) for n in range(17)}), "ranges: holds 17, accepted: up to 16"),
     (lambda f, m, r: f.at([0.5], focus="lv"), "focus: is \"lv\", accepted: \"all\" | \"left_ventricle\""),
     (lambda f, m, r: echocine.ModelLoop(echocine.Scene(r / "scene.toml"), focus="lv"), "focus: is \"lv\""),
     (lambda f, m, r: echocine.HeartPrior().log_density(eff=0.6), r"dials: \"eff\" is not a dial of the heart \(nearest: ef\)"),

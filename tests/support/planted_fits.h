@@ -51,9 +51,9 @@ inline std::vector<double> volumesOf(const Scene& scene) {
 }
 
 // Heart `number` of an endless list in 1 to 3 views, with tilt and rotation of each plane within
-// +-most_deg.
+// +-most_deg. sections: sections and walls of other shapes than the models'.
 inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg,
-                                 Look look = Look::scanner) {
+                                 Look look = Look::scanner, bool sections = false) {
   const auto drawn = [&](int k, double low, double high) {
     return low + (high - low) * uniformFromHash(hashOf(number, k, 911));
   };
@@ -68,6 +68,14 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg,
                {"conicity", drawn(10, 0.58, 0.84)},
                {"apical-motion", drawn(11, 0.8, 1.25)}};
   auto& dials = out.dials;
+  if (sections)
+    dials.insert({{"bow-lateral", drawn(12, -0.03, 0.03)},
+                  {"bow-anterior", drawn(13, -0.03, 0.03)},
+                  {"ellipticity", drawn(14, -0.17, 0.17)},
+                  {"ellipticity-45", drawn(15, -0.17, 0.17)},
+                  {"apical-thickness", drawn(16, 0.78, 1.28)},
+                  {"lateral-thickness", drawn(17, 0.78, 1.28)},
+                  {"anterior-thickness", drawn(18, 0.78, 1.28)}});
   dials["mapse"] = 13 * dials["ef"] / 0.6 * drawn(6, 0.8, 1.2);
   dials["rv-edv"] = dials["edv"] * std::max(drawn(8, 0.9, 1.2), 1.2 * dials["ef"]);
   for (std::size_t v = 0; v < views; ++v) {

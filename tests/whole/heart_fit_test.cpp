@@ -52,18 +52,23 @@ HeartFitOptions ownLookOptions(std::vector<std::string> searched, int starts) {
   return options;
 }
 
-// EF and EDV of one view, far from all starts, with other media, gain, grey curve and speckle. The
-// files have what the fit has.
+// EF, EDV and ellipticity of one view, far from all starts, with other media, gain, grey curve and
+// speckle. Ellipticity is searched from the last polish on. The files have what the fit has.
 TEST(HeartFit, APlantedHeartIsFound) {
   withThreads(2, [] {
-    const std::map<std::string, double> dials{{"ef", 0.45}, {"edv", 150}, {"hr", 72}};
+    const std::map<std::string, double> dials{
+        {"ef", 0.45}, {"edv", 150}, {"hr", 72}, {"ellipticity", 0.15}};
     Scene scene = heart::heartScene(heart::parametersFrom(dials), View::a4c, 20, Look::scanner);
     scene.probe.lines = 128;
     const EchoLoop loop = scannedLoop(scene, 20, 3);
-    const HeartFitOptions options = ownLookOptions({"ef", "edv"}, 2);
+    const HeartFitOptions options = ownLookOptions({"ef", "edv", "ellipticity"}, 2);
     const HeartFit fit = fitHeart({{View::a4c, loop, fromFirst()}}, options);
-    tell("one view, two dials", fit, dials);
+    tell("one view, three dials", fit, dials);
     ASSERT_TRUE(fit.ef && fit.edv_ml && fit.esv_ml);
+    ASSERT_EQ(fit.found.size(), 3u);
+    EXPECT_EQ(fit.found[2].key, "ellipticity");
+    EXPECT_NEAR(fit.found[2].value, 0.15, 0.09);
+    std::printf("  ellipticity %.3f (%.3f)\n", fit.found[2].value, fit.found[2].sd);
     EXPECT_EQ(fit.refusal, "");
     EXPECT_FALSE(fit.views[0].better);
     EXPECT_NEAR(fit.ef->value, 0.45, 0.03);

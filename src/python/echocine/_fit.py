@@ -159,8 +159,8 @@ class HeartPrior:
     def log_density(self, **dials: float) -> float:
         """ln p of Eq. 14 for a heart of these dials, up to a constant. Other dials have their defaults.
 
-        ef, edv, wall_thickness, sphericity, mapse and conicity are distributed jointly. la_volume, apical_motion and rv_ratio
-        are independent and count where they are given. Raises SceneError for a dial out of its range.
+        ef, edv, wall_thickness, sphericity, mapse and conicity are distributed jointly. la_volume, apical_motion, rv_ratio,
+        bows, ellipticities and ratios of thickness are independent and count where they are given. Raises SceneError for a dial out of its range.
         """
         return self._native.log_density(_dashed(dials))
 
@@ -170,7 +170,7 @@ class HeartPrior:
 
     @property
     def mean(self) -> Dict[str, float]:
-        """By dial; of la_volume, apical_motion and rv_ratio the median."""
+        """By dial; of independent dials the median."""
         return _underscored(self._native.mean)
 
     @property

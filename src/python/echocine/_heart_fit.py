@@ -96,7 +96,9 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, apical_motion,
-            rv_ratio (right over left ventricle's volume) and la_volume; None: the first five, with two loops the first six, with three the first eight.
+            rv_ratio (right over left ventricle's volume), bow_lateral, bow_anterior, ellipticity, ellipticity_45,
+            apical_thickness, lateral_thickness, anterior_thickness and la_volume;
+            None: the first five, with two loops the first six, with three all but the last.
             Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
