@@ -97,6 +97,11 @@ std::vector<std::vector<double>> candidatesOf(std::size_t dials) {
   return out;
 }
 
+// A fifth more than terms.
+std::size_t heartsFor(std::size_t terms) {
+  return terms + (terms + 4) / 5;
+}
+
 double chebyshev(int degree, double t) {
   return degree == 0 ? 1 : degree == 1 ? t : degree == 2 ? 2 * t * t - 1 : (4 * t * t - 3) * t;
 }
@@ -120,6 +125,10 @@ HeartDesign HeartDesign::grid(const std::vector<DialRange>& ranges, int nodes) {
   out.places_ = latticeOf(ranges.size(), nodes);
   out.overshoot_ = std::pow(mostOvershoot(nodes), static_cast<double>(ranges.size()));
   return out;
+}
+
+std::size_t HeartDesign::polynomialSize(const std::vector<DialRange>& ranges) {
+  return heartsFor(powersFor(ranges).size());
 }
 
 HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
@@ -146,7 +155,7 @@ HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   };
   const std::vector<double> centre(ranges.size(), 0);
   take(centre, rowOf(out.powers_, centre));
-  const std::size_t hearts = out.powers_.size() + (out.powers_.size() + 4) / 5;
+  const std::size_t hearts = heartsFor(out.powers_.size());
   while (out.places_.size() < hearts) {
     std::size_t best = 0;
     double most = -1;

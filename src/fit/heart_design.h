@@ -18,6 +18,7 @@ class HeartDesign {
   // Optimal Experiments, 1972), a fifth more than terms. With more than nine dials, the
   // candidates are 4^8 draws of the lattice. Shares are those of least squares.
   static HeartDesign polynomial(const std::vector<DialRange>& ranges);
+  static std::size_t polynomialSize(const std::vector<DialRange>& ranges);  // its hearts
 
   std::size_t size() const { return places_.size(); }
   const std::vector<DialRange>& ranges() const { return ranges_; }

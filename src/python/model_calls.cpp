@@ -62,6 +62,10 @@ std::shared_ptr<fit::HeartFamily> makeFamily(const Ranges& ranges, const std::st
                                                     monitor, tilt_deg);
         return;
       }
+      if (const std::size_t hearts = fit::HeartDesign::polynomialSize(by_key);
+          hearts > fit::kMostHearts)
+        throw SceneError(
+            fmt::format("ranges: needs {} hearts, accepted: up to {}", hearts, fit::kMostHearts));
       fit::HeartCache kept;
       if (cache) kept = fit::HeartCache(*cache, fit::kMostCacheBytes, monitor.warn);
       const fit::HeartNodes hearts(dials, fit::HeartDesign::polynomial(by_key), fit::kFitFrames,

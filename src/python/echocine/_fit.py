@@ -109,10 +109,10 @@ class HeartFamily:
     """Hearts of one view between computed ones: another heart takes milliseconds instead of a second.
 
     Up to three dials: hearts are computed at Chebyshev nodes of each dial. Between the nodes, surfaces are polynomials.
-    Four to eight dials: one polynomial through the hearts of a fit, 23 to 59. An impossible one moves towards the centre of the ranges.
+    Four to sixteen dials: one polynomial through the hearts of a fit, 23 to 125. An impossible one moves towards the centre of the ranges.
 
     Args:
-        ranges: dial -> (least, most), up to eight. The order is that of `at`'s values.
+        ranges: dial -> (least, most), up to sixteen. The order is that of `at`'s values.
         view: where the probe is held, such as "a4c".
         nodes: computed hearts per dial, 2 to 9, at most 125 hearts; None: 4, with three ranges 3, with more the hearts of a fit.
         tilt_deg: limit of tilt and rotation of the plane, either way, 0 to 20.
