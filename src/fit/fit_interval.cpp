@@ -159,7 +159,7 @@ ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> 
   constexpr ModelError kPlain[] = {
       {0.015, 0.085, 0.009}, {0.015, 0.05, 0.009}, {0.015, 0.045, 0.009}};
   constexpr ModelError kWithOwnLook[] = {kPlain[0], {0.01, 0.05, 0.009}, {0.01, 0.02, 0.009}};
-  constexpr ModelError kOutside{0.10, 0.18, 0.035};
+  constexpr ModelError kOutside{0.14, 0.18, 0.035};
   const std::size_t row = std::clamp(views, std::size_t{1}, kMostLoops) - 1;
   const ModelError& inside = own_look ? kWithOwnLook[row] : kPlain[row];
   const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasuredAgreement), 0.0, 1.0);

@@ -27,7 +27,7 @@ namespace echocine::fit {
 namespace {
 
 std::vector<DialRange> rangesOf(const HeartFitOptions& options, std::size_t views) {
-  const auto keys = options.searched.value_or(dialsSearchedIn(views));
+  const auto keys = options.searched.value_or(dialsSearchedIn(views, options.ownLook(views)));
   std::vector<DialRange> out;
   std::string accepted;
   for (const SearchedDial& dial : searchedDials()) {

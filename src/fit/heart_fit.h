@@ -28,7 +28,7 @@ void checkFitViews(const std::vector<heart::View>& views);
 
 struct HeartFitOptions {
   std::map<std::string, double> dials;  // fixed; other dials follow them
-  // Keys of searchedDials(); none: dialsSearchedIn() so many views.
+  // Keys of searchedDials(); none: dialsSearchedIn() the loops.
   std::optional<std::vector<std::string>> searched{};
   double tilt_deg = 12;  // limit of tilt and rotation of each plane; 0: planes as the view has them
   int starts = 12;       // hearts that are compared first: the groups' means, then draws

@@ -24,14 +24,13 @@ const std::vector<SearchedDial>& searchedDials() {
   return kDials;
 }
 
-std::vector<std::string> dialsSearchedIn(std::size_t views) {
+std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look) {
   std::vector<std::string> keys{"ef", "edv", "wall-thickness", "sphericity", "mapse"};
   if (views > 1) keys.emplace_back("conicity");
-  if (views > 2) {
-    keys.insert(keys.end(), {"apical-motion", kRightRatio});
-    for (const SearchedDial& dial : searchedDials())
-      if (heart::isSectionDial(dial.range.key)) keys.push_back(dial.range.key);
-  }
+  if (views > 2) keys.insert(keys.end(), {"apical-motion", kRightRatio});
+  for (const SearchedDial& dial : searchedDials())
+    if (views > 2 && own_look && heart::isSectionDial(dial.range.key))
+      keys.push_back(dial.range.key);
   return keys;
 }
 

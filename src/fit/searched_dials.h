@@ -20,9 +20,10 @@ struct SearchedDial {
 const std::vector<SearchedDial>& searchedDials();
 
 // Those that a fit searches by default: ejection fraction, volume, wall, sphericity and ring; in
-// two views also conicity, and in three apical motion, the right ventricle's volume and the dials
-// of heart::SectionShape too. Fewer views do not determine them.
-std::vector<std::string> dialsSearchedIn(std::size_t views);
+// two views also conicity, and in three apical motion and the right ventricle's volume too. Fewer
+// views do not determine them. Three views with own look also search heart::SectionShape: descents
+// without a polish do not find the minimum of so many dials.
+std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look);
 
 // Adds dials that follow searched ones: the right atrium's volume the left one's. Replaces
 // kRightRatio by rv-edv, which is at least what ejects the stroke volume.

@@ -47,16 +47,17 @@ TEST(FitDesign, SearchedDialsHaveAPriorAndAStep) {
   EXPECT_NEAR(stepOf({"hr", 60, 80}), 2, 1e-12);
 }
 
-// Fewer views determine fewer dials.
+// Fewer views determine fewer dials. Without own look, sections keep the shape of the models.
 TEST(FitDesign, DefaultDialsAreSearchedDials) {
   std::set<std::string> known;
   for (const SearchedDial& dial : searchedDials()) known.insert(dial.range.key);
-  for (const std::size_t views : {1u, 2u, 3u}) {
-    const std::vector<std::string> keys = dialsSearchedIn(views);
-    EXPECT_EQ(keys.size(), views == 1 ? 5u : views == 2 ? 6u : 15u);
-    EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), keys.size());
-    for (const std::string& key : keys) EXPECT_TRUE(known.contains(key)) << key;
-  }
+  for (const bool own_look : {false, true})
+    for (const std::size_t views : {1u, 2u, 3u}) {
+      const std::vector<std::string> keys = dialsSearchedIn(views, own_look);
+      EXPECT_EQ(keys.size(), views == 1 ? 5u : views == 2 ? 6u : own_look ? 15u : 8u);
+      EXPECT_EQ(std::set<std::string>(keys.begin(), keys.end()).size(), keys.size());
+      for (const std::string& key : keys) EXPECT_TRUE(known.contains(key)) << key;
+    }
 }
 
 // The right atrium follows the left one, unless it is given.

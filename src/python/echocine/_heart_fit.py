@@ -98,7 +98,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, apical_motion,
             rv_ratio (right over left ventricle's volume), bow_lateral, bow_anterior, ellipticity, ellipticity_45,
             apical_thickness, lateral_thickness, anterior_thickness and la_volume;
-            None: the first five, with two loops the first six, with three all but the last.
+            None: the first five, with two loops the first six, with three all but the last, or the first eight without own_look.
             Other dials have the values given, or their defaults.
         tilt_deg: limit of tilt and rotation of each plane, either way, 0 (none) to 20.
         starts: hearts that are compared first.
