@@ -26,6 +26,7 @@ double twistShare(double zeta) {
 // exp(share M) p, with M = (e, e45; e45, -e) of the ellipticities: areas of sections stay. A share
 // of the other sign turns normals as the same share moves points.
 Vec3d stretched(Vec3d p, const SectionShape& shape, double share) {
+  if (shape.ellipticity == 0 && shape.ellipticity_45 == 0) return p;
   const double a = share * shape.ellipticity, b = share * shape.ellipticity_45,
                k = std::hypot(a, b);
   if (k == 0) return p;

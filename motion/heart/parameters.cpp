@@ -43,24 +43,24 @@ constexpr Dial kDials[] = {
      ECHOCINE_DIAL(apical_motion)},
     {"bow-lateral", "1", -0.08, 0.08, 0,
      "bow of the left ventricle's axis towards the lateral wall at half length / length",
-     ECHOCINE_DIAL(section.bow_lateral)},
+     ECHOCINE_DIAL(section.bow_lateral), true},
     {"bow-anterior", "1", -0.08, 0.08, 0, "the same towards the anterior wall",
-     ECHOCINE_DIAL(section.bow_anterior)},
+     ECHOCINE_DIAL(section.bow_anterior), true},
     {"ellipticity", "1", -0.3, 0.3, 0,
      "ln of a factor on the septal-lateral / the anterior-inferior diameter of the left ventricle",
-     ECHOCINE_DIAL(section.ellipticity)},
+     ECHOCINE_DIAL(section.ellipticity), true},
     {"ellipticity-45", "1", -0.3, 0.3, 0,
      "the same for the two diameters at 45 degrees, anterolateral / anteroseptal",
-     ECHOCINE_DIAL(section.ellipticity_45)},
+     ECHOCINE_DIAL(section.ellipticity_45), true},
     {"apical-thickness", "1", 0.6, 1.6, 0,
      "factor on the wall's thickness at 2/3 of the length / at 1/3",
-     ECHOCINE_DIAL(section.apical_thickness)},
+     ECHOCINE_DIAL(section.apical_thickness), true},
     {"lateral-thickness", "1", 0.6, 1.6, 0,
      "factor on the thickness of the lateral wall / the septum",
-     ECHOCINE_DIAL(section.lateral_thickness)},
+     ECHOCINE_DIAL(section.lateral_thickness), true},
     {"anterior-thickness", "1", 0.6, 1.6, 0,
      "factor on the thickness of the anterior wall / the inferior wall",
-     ECHOCINE_DIAL(section.anterior_thickness)},
+     ECHOCINE_DIAL(section.anterior_thickness), true},
     {"wall-thickness", "mm", 3, 20, 1, "thickness of the septum at end-diastole",
      ECHOCINE_DIAL(wall_thickness_mm)},
     {"mapse", "mm", 0, 30, 1, "systolic excursion of the mitral ring; default: proportional to ef",
@@ -82,10 +82,6 @@ constexpr Dial kDials[] = {
 };
 
 #undef ECHOCINE_DIAL
-
-constexpr std::string_view kSectionDials[] = {
-    "bow-lateral",      "bow-anterior",      "ellipticity",       "ellipticity-45",
-    "apical-thickness", "lateral-thickness", "anterior-thickness"};
 
 std::string outOfRange(std::string_view key, double value, double low, double high,
                        std::string_view unit) {
@@ -113,8 +109,8 @@ std::span<const Dial> dials() {
 }
 
 bool isSectionDial(std::string_view key) {
-  return std::find(std::begin(kSectionDials), std::end(kSectionDials), key) !=
-         std::end(kSectionDials);
+  return std::any_of(std::begin(kDials), std::end(kDials),
+                     [&](const Dial& dial) { return dial.of_section && dial.key == key; });
 }
 
 bool isShapeDial(std::string_view key) {

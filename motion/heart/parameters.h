@@ -67,6 +67,7 @@ struct Dial {
   const char* meaning;
   void (*set)(Parameters&, double);
   std::optional<double> (*get)(const Parameters&);
+  bool of_section = false;  // one of SectionShape
 };
 std::span<const Dial> dials();
 

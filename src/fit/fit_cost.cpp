@@ -57,6 +57,13 @@ std::vector<std::size_t> FitCost::freeOf(std::size_t view) const {
   return out;
 }
 
+FitCost FitCost::with(std::vector<FitSide> sides, FitMemory memory) const {
+  FitCost out = *this;
+  out.sides_ = std::move(sides);
+  out.memory_ = std::move(memory);
+  return out;
+}
+
 void FitCost::searchSections() {
   for (FitUnknown& u : unknowns_) u.held = false;
 }

@@ -89,6 +89,8 @@ class FitCost {
   FitCost(std::vector<FitSide> sides, const std::map<std::string, double>& dials, double tilt_deg,
           FitMemory memory = {});
 
+  // The same unknowns, held ones included, for other sides.
+  FitCost with(std::vector<FitSide> sides, FitMemory memory) const;
   // The dials of heart::SectionShape are held at first.
   void searchSections();
   const std::vector<FitUnknown>& unknowns() const { return unknowns_; }

@@ -1,11 +1,14 @@
 #include "fit/heart_design.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <opencv2/core.hpp>
 
 #include "core/check.h"
+#include "core/error.h"
 #include "core/hash_random.h"
 
 namespace echocine::fit {
@@ -97,11 +100,6 @@ std::vector<std::vector<double>> candidatesOf(std::size_t dials) {
   return out;
 }
 
-// A fifth more than terms.
-std::size_t heartsFor(std::size_t terms) {
-  return terms + (terms + 4) / 5;
-}
-
 double chebyshev(int degree, double t) {
   return degree == 0 ? 1 : degree == 1 ? t : degree == 2 ? 2 * t * t - 1 : (4 * t * t - 3) * t;
 }
@@ -127,14 +125,14 @@ HeartDesign HeartDesign::grid(const std::vector<DialRange>& ranges, int nodes) {
   return out;
 }
 
-std::size_t HeartDesign::polynomialSize(const std::vector<DialRange>& ranges) {
-  return heartsFor(powersFor(ranges).size());
-}
-
 HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   HeartDesign out;
   out.ranges_ = ranges;
   out.powers_ = powersFor(ranges);
+  const std::size_t hearts = out.powers_.size() + (out.powers_.size() + 4) / 5;
+  if (hearts > kMostHearts)
+    throw SceneError(
+        fmt::format("ranges: needs {} hearts, accepted: up to {}", hearts, kMostHearts));
   const std::vector<std::vector<double>> lattice = candidatesOf(ranges.size());
   const int terms = static_cast<int>(out.powers_.size());
   cv::Mat rows(static_cast<int>(lattice.size()), terms, CV_64F);
@@ -155,7 +153,6 @@ HeartDesign HeartDesign::polynomial(const std::vector<DialRange>& ranges) {
   };
   const std::vector<double> centre(ranges.size(), 0);
   take(centre, rowOf(out.powers_, centre));
-  const std::size_t hearts = heartsFor(out.powers_.size());
   while (out.places_.size() < hearts) {
     std::size_t best = 0;
     double most = -1;

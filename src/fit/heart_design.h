@@ -17,8 +17,8 @@ class HeartDesign {
   // at a time the place of a 4^n lattice where the polynomial is least certain (Fedorov, Theory of
   // Optimal Experiments, 1972), a fifth more than terms. With more than nine dials, the
   // candidates are 4^8 draws of the lattice. Shares are those of least squares.
+  // Throws SceneError for more than kMostHearts.
   static HeartDesign polynomial(const std::vector<DialRange>& ranges);
-  static std::size_t polynomialSize(const std::vector<DialRange>& ranges);  // its hearts
 
   std::size_t size() const { return places_.size(); }
   const std::vector<DialRange>& ranges() const { return ranges_; }

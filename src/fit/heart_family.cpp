@@ -50,6 +50,7 @@ HeartNodes::HeartNodes(const std::map<std::string, double>& dials, HeartDesign d
 void HeartNodes::compute(const std::map<std::string, double>& dials, const Monitor& monitor,
                          HeartCache& cache) {
   constexpr int kMostMoves = 6;
+  bool moved = false;
   for (std::size_t n = 0; n < design_.size(); ++n) {
     if (!monitor.keep_going()) throw JobError("stopped while hearts were computed");
     for (int moves = 0;; ++moves) {
@@ -59,11 +60,12 @@ void HeartNodes::compute(const std::map<std::string, double>& dials, const Monit
       } catch (const SceneError&) {
         if (design_.nodes() > 0 || moves == kMostMoves) throw;
         design_.moveIn(n);
+        moved = true;
       }
     }
     monitor.tell({Task::hearts, n + 1, design_.size()});
   }
-  if (design_.nodes() == 0) design_.settle();
+  if (moved) design_.settle();
 }
 
 HeartNodes::Heart HeartNodes::computed(const std::map<std::string, double>& dials,

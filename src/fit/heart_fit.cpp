@@ -162,12 +162,6 @@ std::vector<double> middleOf(const std::vector<DialRange>& ranges) {
   return middle;
 }
 
-std::size_t sectionsIn(const std::vector<DialRange>& ranges) {
-  return static_cast<std::size_t>(
-      std::count_if(ranges.begin(), ranges.end(),
-                    [](const DialRange& r) { return heart::isSectionDial(r.key); }));
-}
-
 void keepPossible(const FitCost& cost, FitDescent& best, HeartFit& fit) {
   if (makePossible(cost, best.best.at))
     fit.hints.emplace_back(
@@ -227,8 +221,7 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& opti
   fit.fixed = fit.dials;
   fit.tilt_deg = options.tilt_deg;
   const HeartDesign design = HeartDesign::polynomial(rangesOf(options, loops.size()));
-  const FitStages stages(loops.size(), design.size(), design.ranges().size(),
-                         sectionsIn(design.ranges()), options);
+  const FitStages stages(loops.size(), design, options);
   FitProgress progress(monitor, stages.all());
   FittedSides sides = [&] {
     const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),

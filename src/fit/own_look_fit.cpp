@@ -42,25 +42,19 @@ class LookRounds {
         plain_(plain) {}
 
   FitCost costOf(const std::string& stage) const {
-    FitCost cost(sides_.refer(), plain_.fixed(), options_.tilt_deg, {options_.journal, stage});
-    if (sections_) cost.searchSections();
-    return cost;
+    return plain_.with(sides_.refer(), {options_.journal, stage});
   }
   // From now on.
-  void searchSections() {
-    sections_ = true;
-    plain_.searchSections();
-  }
+  void searchSections() { plain_.searchSections(); }
 
   // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
   bool add(Looked& one, std::string stage) {
     FitDescent& descent = one.descent;
     one.stage = std::move(stage);
     if (!measure(one, 0)) return false;
-    descent = polishFit(
-        costOf(one.stage), std::move(descent),
-        progress_.next(sections_ ? stages_.lastPolish() : stages_.polish(kFirstPolishRounds)),
-        kFirstPolishRounds);
+    const double units = stages_.polish(kFirstPolishRounds, plain_.freeOf(0).size());
+    descent =
+        polishFit(costOf(one.stage), std::move(descent), progress_.next(units), kFirstPolishRounds);
     return !descent.stopped;
   }
 
@@ -112,7 +106,6 @@ class LookRounds {
   const FitStages& stages_;
   FitProgress& progress_;
   FitCost plain_;  // only for its unknowns: its sides change
-  bool sections_ = false;
 };
 
 // Descents from the lowest one with the tilt of one plane mirrored, plane by plane. Two planes that

@@ -31,7 +31,7 @@ using Model = std::shared_ptr<fit::ModelLoop>;
 using Ranges = std::vector<std::tuple<std::string, double, double>>;
 using Dials = std::map<std::string, double>;
 
-// Four nodes of each dial, from which a polynomial's hearts are chosen: 65,536 places. Our choice.
+// As many as a fit can search.
 constexpr std::size_t kMostRanges = 16;
 
 fit::Focus focusFrom(const std::string& word) {
@@ -62,10 +62,6 @@ std::shared_ptr<fit::HeartFamily> makeFamily(const Ranges& ranges, const std::st
                                                     monitor, tilt_deg);
         return;
       }
-      if (const std::size_t hearts = fit::HeartDesign::polynomialSize(by_key);
-          hearts > fit::kMostHearts)
-        throw SceneError(
-            fmt::format("ranges: needs {} hearts, accepted: up to {}", hearts, fit::kMostHearts));
       fit::HeartCache kept;
       if (cache) kept = fit::HeartCache(*cache, fit::kMostCacheBytes, monitor.warn);
       const fit::HeartNodes hearts(dials, fit::HeartDesign::polynomial(by_key), fit::kFitFrames,

@@ -27,7 +27,8 @@ struct TwoDials {
   ExpectedLook look;
 
   TwoDials()
-      : family(HeartNodes(fixed, HeartDesign::polynomial({{"ef", 0.35, 0.65}, rangeOf()}),
+      : family(HeartNodes(fixed,
+                          HeartDesign::polynomial({{"ef", 0.35, 0.65}, {"ellipticity", -0.3, 0.3}}),
                           kFitFrames, {}),
                heart::View::psax_mid, {}),
         loop(ownLoops({{"ef", kPlantedEf},
@@ -39,11 +40,6 @@ struct TwoDials {
         discrepancy(loop, support::fromTheStart(),
                     family.at({kPlantedEf, 0}, {}, Focus::left_ventricle)) {}
 
-  static DialRange rangeOf() {
-    for (const SearchedDial& dial : searchedDials())
-      if (dial.range.key == "ellipticity") return dial.range;
-    return {};
-  }
   FitCost cost() const { return {{{&family, &discrepancy, &look}}, fixed, 0}; }
 };
 
