@@ -128,7 +128,7 @@ interpolation = "cycle"   # between keyframes the heart follows its own volume c
 )",
       meaningOf(view), hr_bpm, vectorText(pose.apex, kMillimetre), vectorText(pose.axis, 1),
       vectorText(pose.lateral, 1), pose.sector_deg, std::round(pose.depth_m * 1e4) * 0.1,
-      isTransoesophageal(view) ? 5.0 : 2.5, hr_bpm, Recording::kLevels, hr_bpm,
+      isTransoesophageal(view) ? 5.0 : 2.5, hr_bpm, recording.levels, hr_bpm,
       recording.end_systole_phase, listText(recording.phases), signalText(look),
       artefactsText(view));
   for (const RecordedPart& part : recording.parts) text += structureText(part, mesh_folder, format);

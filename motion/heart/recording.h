@@ -26,6 +26,7 @@ struct Recording {
   static constexpr int kLevels =
       1;  // levels of Loop subdivision for which the control meshes are fitted
 
+  int levels = kLevels;  // of the meshes; 0: of coarseSurfaces()
   ProbePose pose;
   std::vector<double> phases;     // of the keyframes, ascending from 0
   double body_scale = 1;          // 1: an adult's

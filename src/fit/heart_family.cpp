@@ -12,6 +12,7 @@
 #include "core/units.h"
 #include "fit/blended_beat.h"
 #include "fit/searched_dials.h"
+#include "motion/heart/coarse_surfaces.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
 
@@ -91,7 +92,7 @@ Scene HeartNodes::sceneOf(std::size_t heart, heart::View view) const {
   heart::Recording recording = h.beat;
   recording.pose = heart::poseOf(view, recording);
   heart::surround(view, recording.pose, model, recording);
-  return heart::sceneOf(view, h.parameters, recording);
+  return heart::sceneOf(view, h.parameters, heart::coarseSurfaces(std::move(recording)));
 }
 
 HeartFamily::HeartFamily(const std::map<std::string, double>& dials,
