@@ -9,13 +9,13 @@
 namespace echocine::fit {
 
 // Units are about 0.1 s of one core; measured, rounded.
-inline constexpr double kHeartUnits = 8;          // a computed heart
-inline constexpr double kFamilyUnits = 30;        // the hearts of a view
-inline constexpr double kStartUnits = 4;          // a start in a view
-inline constexpr double kEvaluationUnits = 0.75;  // a heart at a known pose in a view
-inline constexpr double kOwnLoopUnits = 65;       // the rendered loops of a view
-inline constexpr double kViewUnits = 140;         // a view of a ranking
-inline constexpr double kUsualRounds = 4;         // of a descent
+inline constexpr double kHeartUnits = 3;         // a computed heart
+inline constexpr double kFamilyUnits = 0.8;      // a heart of a view
+inline constexpr double kStartUnits = 2;         // a start in a view
+inline constexpr double kEvaluationUnits = 0.3;  // a heart at a known pose in a view
+inline constexpr double kOwnLoopUnits = 50;      // the rendered loops of a view
+inline constexpr double kViewUnits = 140;        // a view of a ranking
+inline constexpr double kUsualRounds = 6;        // of a descent
 
 class FitProgress {
  public:
@@ -46,7 +46,7 @@ class FitProgress {
   double total_ = 0, used_ = 0, told_ = 0;
 };
 
-// Units of a descent with so many unknowns of each view: four rounds, two of them with mixed
+// Units of a descent with so many unknowns of each view: six rounds, two of them with mixed
 // derivatives.
 inline double descentUnits(double views, double unknowns) {
   return views * kEvaluationUnits * (kUsualRounds * (5 + 2 * unknowns) + unknowns * (unknowns - 1));

@@ -24,7 +24,7 @@ struct FitStages {
       : descents(static_cast<std::size_t>(std::min(options.descents, options.starts))) {
     const auto n = static_cast<double>(views);
     hearts = kHeartUnits * static_cast<double>(design.size());
-    families = kFamilyUnits * n;
+    families = kFamilyUnits * n * static_cast<double>(design.size());
     starts = kStartUnits * n * options.starts;
     unknowns = all_unknowns = design.ranges().size() + (options.tilt_deg > 0 ? 2 : 0);
     if (options.ownLook(views))

@@ -5,7 +5,8 @@
 
 #include <algorithm>
 #include <map>
-#include <optional>
+#include <memory>
+#include <utility>
 
 #include "core/units.h"
 #include "frame/simulator.h"
@@ -34,26 +35,37 @@ double quantileOf(std::vector<double> values, double q) {
   return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1))];
 }
 
-LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systole = true,
-                  std::optional<double> heterogeneity_db = {}) {
-  Scene scene = heart::heartScene(heart::parametersFrom({}), view, 6, look);
-  if (heterogeneity_db) scene.speckle.heterogeneity_db = *heterogeneity_db;
-  scene.probe.lines = 96;
-  scene.probe.samples = 384;
+constexpr std::size_t kLines = 96, kSamples = 384;
+
+Scene sceneOf(Look look, heart::View view, const std::map<std::string, double>& dials = {}) {
+  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, 6, look);
+  scene.probe.lines = static_cast<int>(kLines);
+  scene.probe.samples = static_cast<int>(kSamples);
   scene.output.channels = {Channel::structure};
+  return scene;
+}
+
+// The default heart in a look and view. The cases share simulators.
+const Simulator& simulatorOf(Look look, heart::View view) {
+  static std::map<std::pair<Look, heart::View>, std::unique_ptr<const Simulator>> made;
+  auto& simulator = made[{look, view}];
+  if (!simulator) simulator = std::make_unique<const Simulator>(sceneOf(look, view));
+  return *simulator;
+}
+
+LookGreys greysOf(const Simulator& simulator, bool end_systole) {
+  const Scene& scene = simulator.scene();
   const double time_s =
       scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
-  const Simulator simulator(std::move(scene));
   const Frame frame = simulator.frame(end_systole ? time_s : 0);
-  const GreyCurve curve(simulator.scene().signal);
-  const ScanGeometry geometry(simulator.scene().probe);
-  constexpr std::size_t kSamples = 384;
+  const GreyCurve curve(scene.signal);
+  const ScanGeometry geometry(scene.probe);
   const auto greyAt = [&](std::size_t i) {
     return 255 * curve.at(static_cast<double>(frame.greys[i]));
   };
   const auto structureAt = [&](std::size_t i) {
     const std::uint32_t id = frame.truth->sample_ids[i];
-    return id == 0 ? nullptr : &simulator.scene().structures[id - 1u];
+    return id == 0 ? nullptr : &scene.structures[id - 1u];
   };
   const auto roleAt = [&](std::size_t i) {
     const Structure* structure = structureAt(i);
@@ -89,12 +101,16 @@ LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systo
     if (const Role role = roleAt(i); role != Role::none && i % kSamples > kSamples / 2 &&
                                      !(role == Role::lv_wall && isAtRing(i))) {
       auto& [sum, count] = sums[role];
-      sum += intensityFromDecibels(simulator.scene().signal.dynamic_range_db *
+      sum += intensityFromDecibels(scene.signal.dynamic_range_db *
                                    static_cast<double>(frame.greys[i]));
       ++count;
     }
   for (const auto& [role, s] : sums) greys.posterior[role] = s.first / s.second;
   return greys;
+}
+
+LookGreys greysOf(Look look, heart::View view = heart::View::a4c, bool end_systole = true) {
+  return greysOf(simulatorOf(look, view), end_systole);
 }
 
 // Greys of a look relative to clinical stills: the loop that "faint" imitates has little gain. Its
@@ -185,7 +201,9 @@ TEST(LooksLaw, TheHeartLiesInGreyTissue) {
 TEST(LooksLaw, PericardiumExceedsThePosteriorWallAsInHealthyPeople) {
   for (const Look look :
        {Look::scanner, Look::smooth, Look::contrast, Look::sharp, Look::portable}) {
-    const LookGreys greys = greysOf(look, heart::View::plax, false, 0);
+    Scene scene = sceneOf(look, heart::View::plax);
+    scene.speckle.heterogeneity_db = 0;
+    const LookGreys greys = greysOf(Simulator(std::move(scene)), false);
     const double share = greys.posterior.at(Role::lv_wall) / greys.posterior.at(Role::pericardium);
     std::printf("  %-8s wall / pericardium %.3f\n", std::string(nameOf(look)).c_str(), share);
     EXPECT_LT(share, 0.21) << nameOf(look);
@@ -214,36 +232,32 @@ TEST(LooksLaw, TheMitralRingStandsOutInApicalViews) {
 // Clinical four-chamber stills at end-diastole: quartiles 13 and 53 (288 patients of CAMUS). The
 // mean over chest walls is within them for the looks made after these stills.
 TEST(LooksLaw, TheLateralWallOfAnApicalViewIsNotMuchDarkerThanTheSeptum) {
-  constexpr int kChestWalls = 4, kLines = 96, kSamples = 384;
+  constexpr int kChestWalls = 4;
   for (const Look look : {Look::scanner, Look::smooth}) {
     double sum = 0;
     for (int seed = 1; seed <= kChestWalls; ++seed) {
-      Scene scene = heart::heartScene(heart::parametersFrom({}), heart::View::a4c, 4, look);
+      const Simulator& source = simulatorOf(look, heart::View::a4c);
+      Scene scene = source.scene();
       scene.artefacts.shading_seed = seed;
-      scene.probe.lines = kLines;
-      scene.probe.samples = kSamples;
-      scene.output.channels = {Channel::structure};
-      const Simulator simulator(std::move(scene));
+      const Simulator simulator(std::move(scene), source);
       const Frame frame = simulator.frame(0);
       const GreyCurve curve(simulator.scene().signal);
-      const auto roleAt = [&](int line, int sample) {
-        const std::uint32_t id =
-            frame.truth->sample_ids[static_cast<std::size_t>(line * kSamples + sample)];
+      const auto roleAt = [&](std::size_t i) {
+        const std::uint32_t id = frame.truth->sample_ids[i];
         return id == 0 ? Role::none : roleOf(simulator.scene().structures[id - 1u]);
       };
       std::vector<double> depths;
-      for (int i = 0; i < kLines * kSamples; ++i)
-        if (roleAt(i / kSamples, i % kSamples) == Role::lv_cavity) depths.push_back(i % kSamples);
+      for (std::size_t i = 0; i < kLines * kSamples; ++i)
+        if (roleAt(i) == Role::lv_cavity) depths.push_back(static_cast<double>(i % kSamples));
       const double top = quantileOf(depths, 0.01), bottom = quantileOf(depths, 0.99);
       std::vector<double> septum, lateral;
-      for (int k = static_cast<int>(top + 0.3 * (bottom - top)); k < top + 0.7 * (bottom - top);
-           ++k) {
+      for (auto k = static_cast<std::size_t>(top + 0.3 * (bottom - top));
+           static_cast<double>(k) < top + 0.7 * (bottom - top); ++k) {
         bool seen = false;  // the cavity: the septum is before it
-        for (int line = 0; line < kLines; ++line) {
-          const Role role = roleAt(line, k);
+        for (std::size_t at = k; at < kLines * kSamples; at += kSamples) {
+          const Role role = roleAt(at);
           seen = seen || role == Role::lv_cavity;
           if (role != Role::lv_wall) continue;
-          const auto at = static_cast<std::size_t>(line * kSamples + k);
           (seen ? lateral : septum).push_back(255 * curve.at(static_cast<double>(frame.greys[at])));
         }
       }
@@ -258,15 +272,11 @@ TEST(LooksLaw, TheLateralWallOfAnApicalViewIsNotMuchDarkerThanTheSeptum) {
 }
 
 TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
-  for (const double edv_ml : {90.0, 130.0, 170.0})
+  for (const double edv_ml : {90.0, 130.0, 170.0}) {
+    Scene scene = sceneOf(Look::portable, heart::View::plax, {{"edv", edv_ml}});
+    scene.speckle.seed = scene.artefacts.shading_seed = static_cast<int>(edv_ml);
+    const Simulator simulator(std::move(scene));
     for (const double time_s : {0.0, 0.33, 0.7}) {
-      Scene scene = heart::heartScene(heart::parametersFrom({{"edv", edv_ml}}), heart::View::plax,
-                                      6, Look::portable);
-      scene.probe.lines = 96;
-      scene.probe.samples = 384;
-      scene.output.channels = {Channel::structure};
-      scene.speckle.seed = scene.artefacts.shading_seed = static_cast<int>(edv_ml);
-      const Simulator simulator(std::move(scene));
       const Frame frame = simulator.frame(time_s);
       const GreyCurve curve(simulator.scene().signal);
       std::map<Role, std::vector<double>> greys;  // in the middle half of the sector, behind
@@ -281,6 +291,7 @@ TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
                   pericardium);
       EXPECT_GT(pericardium, wall + 15) << edv_ml << " mL, " << time_s << " s";
     }
+  }
 }
 
 }  // namespace
