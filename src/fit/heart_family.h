@@ -60,7 +60,7 @@ class HeartFamily {
   // SceneError for another limit, JobError when the monitor requests a stop.
   HeartFamily(const HeartNodes& hearts, heart::View view, const Monitor& monitor = {},
               double tilt_deg = 0, bool segments = false);
-  // A family of one view; computes its hearts, 0.8 s of one core each. Throws like HeartNodes.
+  // A family of one view; computes its hearts, 0.3 s of one core each. Throws like HeartNodes.
   HeartFamily(const std::map<std::string, double>& dials, const std::vector<DialRange>& ranges,
               heart::View view, int frames, int nodes, const Monitor& monitor = {},
               double tilt_deg = 0);

@@ -46,13 +46,13 @@ double distanceFrom(Vec3d a, Vec3d b, Vec3d c, Vec3d p) {
   return std::min({fromEdge(a, b), fromEdge(b, c), fromEdge(c, a)});
 }
 
-// By how many metres every 16th refined point lies off the coarse surface, ascending.
+// By how many metres every 32nd refined point lies off the coarse surface, ascending.
 std::vector<double> distances(const RecordedPart& coarse, const RecordedPart& fine) {
   std::vector<Triangle> triangles;
   const std::vector<Vec3d>&points = coarse.control_m[0],
         refined = refinedPoints(fine, 0, triangles);
   std::vector<double> out;
-  for (std::size_t i = 0; i < refined.size(); i += 16) {
+  for (std::size_t i = 0; i < refined.size(); i += 32) {
     out.push_back(1);
     for (const Triangle& t : coarse.faces)
       out.back() =
