@@ -14,7 +14,7 @@ inline constexpr double kFamilyUnits = 0.8;      // a heart of a view
 inline constexpr double kStartUnits = 2;         // a start in a view
 inline constexpr double kEvaluationUnits = 0.3;  // a heart at a known pose in a view
 inline constexpr double kOwnLoopUnits = 50;      // the rendered loops of a view
-inline constexpr double kViewUnits = 140;        // a view of a ranking
+inline constexpr double kViewUnits = 40;         // a view of a ranking
 inline constexpr double kUsualRounds = 6;        // of a descent
 
 class FitProgress {
