@@ -145,6 +145,7 @@ TEST(HeartFit, AFlippedAndAShuffledLoopAreRefusedAndAKilledFitResumes) {
     scene.probe.lines = 96;
     const EchoLoop loop = scannedLoop(scene, 20, 5);
     HeartFitOptions options = ownLookOptions({"ef"}, 1);
+    options.settling_steps = 0;
     options.dials = {{"hr", 72}};
     options.own_loops = options.other_views = false;
     options.heart_cache = folder / "hearts";
