@@ -18,16 +18,14 @@ namespace {
 using heart::RecordedPart;
 using heart::Recording;
 
-// Of a part's surface as it is rendered.
-std::vector<Vec3d> refinedPoints(const RecordedPart& part, std::size_t keyframe,
-                                 std::vector<Triangle>& triangles) {
-  const std::vector<Vec3d>& control = part.control_m[keyframe];
+// Of a part's surface as it is rendered, in the first keyframe.
+std::vector<Vec3d> refinedPoints(const RecordedPart& part) {
+  const std::vector<Vec3d>& control = part.control_m.front();
   const auto subdivision =
       sharedSubdivision(part.faces, static_cast<std::uint32_t>(control.size()), part.tags, 1, {});
   std::vector<Vec3f> from, to(subdivision->vertexCount());
   for (const Vec3d& p : control) from.push_back(toFloat(p));
   subdivision->apply(from, to);
-  triangles = subdivision->triangles();
   std::vector<Vec3d> out;
   for (const Vec3f& p : to) out.push_back(toDouble(p));
   return out;
@@ -48,9 +46,7 @@ double distanceFrom(Vec3d a, Vec3d b, Vec3d c, Vec3d p) {
 
 // By how many metres every 32nd refined point lies off the coarse surface, ascending.
 std::vector<double> distances(const RecordedPart& coarse, const RecordedPart& fine) {
-  std::vector<Triangle> triangles;
-  const std::vector<Vec3d>&points = coarse.control_m[0],
-        refined = refinedPoints(fine, 0, triangles);
+  const std::vector<Vec3d>&points = coarse.control_m.front(), refined = refinedPoints(fine);
   std::vector<double> out;
   for (std::size_t i = 0; i < refined.size(); i += 32) {
     out.push_back(1);
