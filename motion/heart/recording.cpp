@@ -11,9 +11,9 @@
 #include "core/parallel.h"
 #include "motion/heart/fold_repair.h"
 #include "motion/heart/leaflet.h"
+#include "motion/heart/refined_part.h"
 #include "motion/heart/surroundings.h"
 #include "motion/mesh/surface_measure.h"
-#include "motion/subdivision/shared_subdivision.h"
 
 namespace echocine::heart {
 namespace {
@@ -66,16 +66,9 @@ MeshTags tagsOf(const Part& part) {
 
 void measureVolumes(RecordedPart& part) {
   if (part.kind.membrane) return;
-  const auto vertices = static_cast<std::uint32_t>(part.control_m.front().size());
-  const auto subdivision =
-      sharedSubdivision(part.faces, vertices, part.tags, Recording::kLevels, {});
-  std::vector<Vec3f> control, refined(subdivision->vertexCount());
-  for (const std::vector<Vec3d>& points : part.control_m) {
-    control.clear();
-    for (const Vec3d& p : points) control.push_back(toFloat(p));
-    subdivision->apply(control, refined);
-    part.volume_m3.push_back(enclosedVolume(subdivision->triangles(), refined));
-  }
+  RefinedPart refined(part);
+  for (std::size_t k = 0; k < part.control_m.size(); ++k)
+    part.volume_m3.push_back(enclosedVolume(refined.triangles(), refined.pointsAt(k)));
 }
 
 void measureVolumes(Recording& recording) {

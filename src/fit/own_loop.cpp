@@ -59,9 +59,9 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
                        const PlaneTilt& tilt, int frames, Look look) {
   Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, look);
-  // Half of the scene's. D with the look of such loops differs by less than its noise. Our choice.
-  scene.probe.lines = 128;
-  scene.probe.samples = 512;
+  // Half of both changes D with own look by less than its noise. Our choice.
+  scene.probe.lines /= 2;
+  scene.probe.samples /= 2;
   scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
   return {std::move(scene), frames};
 }

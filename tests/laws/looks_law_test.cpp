@@ -53,56 +53,63 @@ const Simulator& simulatorOf(Look look, heart::View view) {
   return *simulator;
 }
 
+// Grey levels and structures of the samples of a frame.
+struct LabelledFrame {
+  const Scene& scene;
+  Frame frame;
+  GreyCurve curve;
+
+  LabelledFrame(const Simulator& simulator, double time_s)
+      : scene(simulator.scene()), frame(simulator.frame(time_s)), curve(scene.signal) {}
+  double greyAt(std::size_t i) const { return 255 * curve.at(static_cast<double>(frame.greys[i])); }
+  const Structure* structureAt(std::size_t i) const {  // null in the background
+    const std::uint32_t id = frame.truth->sample_ids[i];
+    return id == 0 ? nullptr : &scene.structures[id - 1u];
+  }
+  Role roleAt(std::size_t i) const {
+    const Structure* structure = structureAt(i);
+    return structure ? roleOf(*structure) : Role::none;
+  }
+};
+
 LookGreys greysOf(const Simulator& simulator, bool end_systole) {
   const Scene& scene = simulator.scene();
   const double time_s =
       scene.motion.end_systole_phase.value_or(0.35) / scene.acquisition.heart_rate_hz;
-  const Frame frame = simulator.frame(end_systole ? time_s : 0);
-  const GreyCurve curve(scene.signal);
+  const LabelledFrame labelled(simulator, end_systole ? time_s : 0);
+  const Greys& all = labelled.frame.greys;
   const ScanGeometry geometry(scene.probe);
-  const auto greyAt = [&](std::size_t i) {
-    return 255 * curve.at(static_cast<double>(frame.greys[i]));
-  };
-  const auto structureAt = [&](std::size_t i) {
-    const std::uint32_t id = frame.truth->sample_ids[i];
-    return id == 0 ? nullptr : &scene.structures[id - 1u];
-  };
-  const auto roleAt = [&](std::size_t i) {
-    const Structure* structure = structureAt(i);
-    return structure ? roleOf(*structure) : Role::none;
-  };
   LookGreys greys;
-  for (std::size_t i = 0; i < frame.greys.size(); ++i) {
-    const double grey = greyAt(i);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const double grey = labelled.greyAt(i);
     greys.all.push_back(grey);
     if (geometry.sampleDepth(static_cast<int>(i % kSamples)) < 15e-3) greys.near.push_back(grey);
-    if (structureAt(i)) greys.by_role[roleAt(i)].push_back(grey);
+    if (labelled.structureAt(i)) greys.by_role[labelled.roleAt(i)].push_back(grey);
   }
   std::map<Role, std::pair<double, double>> sums;
   const auto isNear = [&](std::size_t i, Role role, std::size_t lines, std::size_t samples) {
     for (std::size_t line = i / kSamples - std::min(i / kSamples, lines);
-         line <= std::min(i / kSamples + lines, frame.greys.size() / kSamples - 1); ++line)
+         line <= std::min(i / kSamples + lines, all.size() / kSamples - 1); ++line)
       for (std::size_t k = i % kSamples - std::min(i % kSamples, samples);
            k <= std::min(i % kSamples + samples, kSamples - 1); ++k)
-        if (roleAt(line * kSamples + k) == role) return true;
+        if (labelled.roleAt(line * kSamples + k) == role) return true;
     return false;
   };
-  for (std::size_t i = 0; i < frame.greys.size(); ++i)
-    if (const Structure* structure = structureAt(i);
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const Structure* structure = labelled.structureAt(i);
         structure && structure->name == "mediastinum" && isNear(i, Role::pericardium, 2, 12))
-      greys.coat.push_back(greyAt(i));
+      greys.coat.push_back(labelled.greyAt(i));
   // The mitral ring is within about 6 mm of the atrium, and within 7 mm of both cavities.
   const auto isAtRing = [&](std::size_t i) { return isNear(i, Role::la, 3, 14); };
-  for (std::size_t i = 0; i < frame.greys.size(); ++i)
-    if (const Role role = roleAt(i); role == Role::lv_wall || role == Role::la_wall)
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const Role role = labelled.roleAt(i); role == Role::lv_wall || role == Role::la_wall)
       if (isNear(i, Role::la, 3, 18) && isNear(i, Role::lv_cavity, 3, 18))
-        greys.ring.push_back(greyAt(i));
-  for (std::size_t i = 0; i < frame.greys.size(); ++i)
-    if (const Role role = roleAt(i); role != Role::none && i % kSamples > kSamples / 2 &&
-                                     !(role == Role::lv_wall && isAtRing(i))) {
+        greys.ring.push_back(labelled.greyAt(i));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (const Role role = labelled.roleAt(i); role != Role::none && i % kSamples > kSamples / 2 &&
+                                              !(role == Role::lv_wall && isAtRing(i))) {
       auto& [sum, count] = sums[role];
-      sum += intensityFromDecibels(scene.signal.dynamic_range_db *
-                                   static_cast<double>(frame.greys[i]));
+      sum += intensityFromDecibels(scene.signal.dynamic_range_db * static_cast<double>(all[i]));
       ++count;
     }
   for (const auto& [role, s] : sums) greys.posterior[role] = s.first / s.second;
@@ -240,25 +247,21 @@ TEST(LooksLaw, TheLateralWallOfAnApicalViewIsNotMuchDarkerThanTheSeptum) {
       Scene scene = source.scene();
       scene.artefacts.shading_seed = seed;
       const Simulator simulator(std::move(scene), source);
-      const Frame frame = simulator.frame(0);
-      const GreyCurve curve(simulator.scene().signal);
-      const auto roleAt = [&](std::size_t i) {
-        const std::uint32_t id = frame.truth->sample_ids[i];
-        return id == 0 ? Role::none : roleOf(simulator.scene().structures[id - 1u]);
-      };
+      const LabelledFrame labelled(simulator, 0);
       std::vector<double> depths;
       for (std::size_t i = 0; i < kLines * kSamples; ++i)
-        if (roleAt(i) == Role::lv_cavity) depths.push_back(static_cast<double>(i % kSamples));
+        if (labelled.roleAt(i) == Role::lv_cavity)
+          depths.push_back(static_cast<double>(i % kSamples));
       const double top = quantileOf(depths, 0.01), bottom = quantileOf(depths, 0.99);
       std::vector<double> septum, lateral;
       for (auto k = static_cast<std::size_t>(top + 0.3 * (bottom - top));
            static_cast<double>(k) < top + 0.7 * (bottom - top); ++k) {
         bool seen = false;  // the cavity: the septum is before it
         for (std::size_t at = k; at < kLines * kSamples; at += kSamples) {
-          const Role role = roleAt(at);
+          const Role role = labelled.roleAt(at);
           seen = seen || role == Role::lv_cavity;
           if (role != Role::lv_wall) continue;
-          (seen ? lateral : septum).push_back(255 * curve.at(static_cast<double>(frame.greys[at])));
+          (seen ? lateral : septum).push_back(labelled.greyAt(at));
         }
       }
       sum += quantileOf(septum, 0.5) - quantileOf(lateral, 0.5);
@@ -277,14 +280,11 @@ TEST(LooksLaw, PortablePericardiumIsWhiterThanThePosteriorWall) {
     scene.speckle.seed = scene.artefacts.shading_seed = static_cast<int>(edv_ml);
     const Simulator simulator(std::move(scene));
     for (const double time_s : {0.0, 0.33, 0.7}) {
-      const Frame frame = simulator.frame(time_s);
-      const GreyCurve curve(simulator.scene().signal);
+      const LabelledFrame labelled(simulator, time_s);
       std::map<Role, std::vector<double>> greys;  // in the middle half of the sector, behind
-      for (std::size_t line = 24; line < 72; ++line)
-        for (std::size_t i = line * 384 + 192; i < (line + 1) * 384; ++i)
-          if (const std::uint32_t id = frame.truth->sample_ids[i]; id != 0)
-            greys[roleOf(simulator.scene().structures[id - 1u])].push_back(
-                255 * curve.at(static_cast<double>(frame.greys[i])));
+      for (std::size_t line = kLines / 4; line < 3 * kLines / 4; ++line)
+        for (std::size_t i = line * kSamples + kSamples / 2; i < (line + 1) * kSamples; ++i)
+          if (labelled.structureAt(i)) greys[labelled.roleAt(i)].push_back(labelled.greyAt(i));
       const double wall = quantileOf(greys[Role::lv_wall], 0.5),
                    pericardium = quantileOf(greys[Role::pericardium], 0.5);
       std::printf("  EDV %.0f, %.2f s: wall %.0f, pericardium %.0f\n", edv_ml, time_s, wall,
