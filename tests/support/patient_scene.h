@@ -69,9 +69,10 @@ inline void poseShortAxis(SceneText& text) {
   text.probe["lateral"] = vectorText(heart.to_left);
 }
 
-inline SceneText patientScene() {
-  const auto files = [](const std::string& name) {
-    return "\"" + (patientMeshes() / (name + "_*.obj")).string() + "\"";
+// `folder`: of meshes with the patient's names, in mm.
+inline SceneText patientScene(const std::filesystem::path& folder = patientMeshes()) {
+  const auto files = [&](const std::string& name) {
+    return "\"" + (folder / (name + "_*.obj")).string() + "\"";
   };
   SceneText text;
   poseApical(text);

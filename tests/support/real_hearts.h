@@ -77,24 +77,30 @@ inline Vec3d farthestFrom(Vec3d place, const std::vector<Vec3d>& points) {
                            [&](Vec3d a, Vec3d b) { return length(a - place) < length(b - place); });
 }
 
-// One patient's ventricles and valve planes at end-diastole.
-inline RealHeart patientHeart() {
-  RealHeart heart{"patient", {}, {}, {}, {}, {}, {}, true};
-  const auto file = [](const std::string& name) {
-    return realFolder() / "meshes/bivme_patient1_25f" / (name + "_000.obj");
+// Ventricles and valve planes of a folder's first frame.
+inline RealHeart ventriclesIn(const std::filesystem::path& folder, const std::string& name,
+                              double metres_per_unit) {
+  RealHeart heart{name, {}, {}, {}, {}, {}, {}, true};
+  const auto add = [&](Role role, const std::string& part) {
+    heart.add(role, folder / (part + "_000.obj"), metres_per_unit);
   };
-  heart.add(Role::lv_cavity, file("lv_endo_closed"), 1e-3);
-  heart.add(Role::rv_cavity, file("rv_endo_closed"), 1e-3);
-  heart.add(Role::lv_wall, file("epi"), 1e-3);
-  heart.add(Role::mitral_valve, file("mitral_valve"), 1e-3);
-  heart.add(Role::aortic_valve, file("aortic_valve"), 1e-3);
-  heart.add(Role::tricuspid_valve, file("tricuspid_valve"), 1e-3);
-  heart.add(Role::pulmonary_valve, file("pulmonary_valve"), 1e-3);
+  add(Role::lv_cavity, "lv_endo_closed");
+  add(Role::rv_cavity, "rv_endo_closed");
+  add(Role::lv_wall, "epi");
+  add(Role::mitral_valve, "mitral_valve");
+  add(Role::aortic_valve, "aortic_valve");
+  add(Role::tricuspid_valve, "tricuspid_valve");
+  add(Role::pulmonary_valve, "pulmonary_valve");
   heart.mitral = meanPoint(heart.points(Role::mitral_valve));
   heart.tricuspid = meanPoint(heart.points(Role::tricuspid_valve));
   heart.aortic = meanPoint(heart.points(Role::aortic_valve));
   heart.apex = farthestFrom(heart.mitral, heart.points(Role::lv_cavity));
   return heart;
+}
+
+// One patient's ventricles and valve planes at end-diastole.
+inline RealHeart patientHeart() {
+  return ventriclesIn(realFolder() / "meshes/bivme_patient1_25f", "patient", 1e-3);
 }
 
 // Seven chambers and vessels segmented from CT; its unit cube at a size that a heart has.

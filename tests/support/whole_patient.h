@@ -1,10 +1,11 @@
 #pragma once
 // The real patient's ventricles with what cine MR did not give: atria and great vessels. They are
-// tubes on the patient's valve rings, which move with the rings; their roofs stay in place.
+// tubes on the valve rings, which move with the rings; their roofs stay in place.
 
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <map>
 #include <memory>
 #include <numbers>
@@ -109,54 +110,52 @@ inline std::string frameName(const std::string& part, int frame) {
   return part + (frame < 10 ? "_00" : "_0") + std::to_string(frame) + ".obj";
 }
 
-inline constexpr int kPatientFrames = 25;
+inline constexpr int kVentricleFrames = 25;
 
-// Meshes of the patient and of the tubes, in mm, by the names that patientScene() gives.
-inline const NamedMeshes& wholePatientMeshes() {
-  static const NamedMeshes meshes = [] {
-    NamedMeshes out;
-    const auto read = [](const std::string& part, int frame) {
-      Sha256 digest;
-      return std::make_shared<const TriangleMesh>(
-          readMesh(patientMeshes() / frameName(part, frame), digest));
-    };
-    for (const char* part : {"epi", "lv_endo_closed", "rv_endo_closed", "mitral_valve",
-                             "aortic_valve", "tricuspid_valve", "pulmonary_valve"})
-      for (int frame = 0; frame < kPatientFrames; ++frame)
-        out[(patientMeshes() / frameName(part, frame)).string()] = read(part, frame);
-    for (const TubeShape& shape : kTubes) {
-      const Ring first = ringOf(*read(shape.valve, 0), 1e-3);
-      for (int frame = 0; frame < kPatientFrames; ++frame) {
-        const Ring now = ringOf(*read(shape.valve, frame), 1e-3);
-        for (const bool wall : {false, true}) {
-          TriangleMesh tube = tubeOn(now, first, shape, wall ? shape.wall_m : 0);
-          for (Vec3d& p : tube.positions) p = 1e3 * p;
-          out[frameName(wall ? shape.wall : shape.name, frame)] =
-              std::make_shared<const TriangleMesh>(std::move(tube));
-        }
+// Mesh of a part of the ventricles, named as the patient's, in one frame, in mm.
+using VentriclesAt =
+    std::function<std::shared_ptr<const TriangleMesh>(const std::string& part, int frame)>;
+
+// Meshes of ventricles and of their tubes, in mm, by the names that patientScene(folder) gives.
+inline NamedMeshes wholeMeshes(const std::filesystem::path& folder, const VentriclesAt& at) {
+  NamedMeshes out;
+  for (const char* part : {"epi", "lv_endo_closed", "rv_endo_closed", "mitral_valve",
+                           "aortic_valve", "tricuspid_valve", "pulmonary_valve"})
+    for (int frame = 0; frame < kVentricleFrames; ++frame)
+      out[(folder / frameName(part, frame)).string()] = at(part, frame);
+  for (const TubeShape& shape : kTubes) {
+    const Ring first = ringOf(*at(shape.valve, 0), 1e-3);
+    for (int frame = 0; frame < kVentricleFrames; ++frame) {
+      const Ring now = ringOf(*at(shape.valve, frame), 1e-3);
+      for (const bool wall : {false, true}) {
+        TriangleMesh tube = tubeOn(now, first, shape, wall ? shape.wall_m : 0);
+        for (Vec3d& p : tube.positions) p = 1e3 * p;
+        out[frameName(wall ? shape.wall : shape.name, frame)] =
+            std::make_shared<const TriangleMesh>(std::move(tube));
       }
     }
-    return out;
-  }();
-  return meshes;
+  }
+  return out;
 }
 
-// The patient's heart in a view, with atria and great vessels.
-inline Scene wholePatientScene(View view) {
-  static const RealHeart heart = [] {
-    RealHeart out = patientHeart();
-    const auto add = [&](Role role, const char* name) {
-      const TriangleMesh& mesh = *wholePatientMeshes().at(frameName(name, 0));
-      RoleSurface surface{role, name, {}, mesh.triangles};
-      for (const Vec3d p : mesh.positions) surface.points_m.push_back(1e-3 * p);
-      out.surfaces.push_back(std::move(surface));
-      out.triangles.push_back(mesh.triangles);
-    };
-    add(Role::la, "la");
-    add(Role::ra, "ra");
-    return out;
-  }();
-  SceneText text = patientScene();
+// The ventricles with their tubes' cavities at end-diastole.
+inline RealHeart withAtria(RealHeart ventricles, const NamedMeshes& meshes) {
+  const auto add = [&](Role role, const char* name) {
+    const TriangleMesh& mesh = *meshes.at(frameName(name, 0));
+    RoleSurface surface{role, name, {}, mesh.triangles};
+    for (const Vec3d p : mesh.positions) surface.points_m.push_back(1e-3 * p);
+    ventricles.surfaces.push_back(std::move(surface));
+    ventricles.triangles.push_back(mesh.triangles);
+  };
+  add(Role::la, "la");
+  add(Role::ra, "ra");
+  return ventricles;
+}
+
+// A scene of them in a view.
+inline Scene wholeScene(View view, const RealHeart& heart, const std::filesystem::path& folder,
+                        const NamedMeshes& meshes) {
+  SceneText text = patientScene(folder);
   holdProbe(view, heart.surfaces, 1e-3, text);
   text.output.clear();
   // Over all tubes.
@@ -173,7 +172,19 @@ inline Scene wholePatientScene(View view) {
     text.addStructure(shape.wall, shape.vessel ? "vessel_wall" : "myocardium",
                       "\"" + std::string(shape.wall) + "_???.obj\"", shape.wall_priority);
   }
-  return parseScene(text.text(), "scene.toml", wholePatientMeshes());
+  return parseScene(text.text(), "scene.toml", meshes);
+}
+
+// The patient's heart in a view, with atria and great vessels.
+inline Scene wholePatientScene(View view) {
+  static const NamedMeshes meshes =
+      wholeMeshes(patientMeshes(), [](const std::string& part, int frame) {
+        Sha256 digest;
+        return std::make_shared<const TriangleMesh>(
+            readMesh(patientMeshes() / frameName(part, frame), digest));
+      });
+  static const RealHeart heart = withAtria(patientHeart(), meshes);
+  return wholeScene(view, heart, patientMeshes(), meshes);
 }
 
 }  // namespace echocine::support
