@@ -55,16 +55,12 @@ struct Errors {
   }
 };
 
-struct ForeignHeart {
-  const char* name;
-  Scene (*in)(View);
-};
-constexpr ForeignHeart kForeignHearts[] = {
+constexpr NamedHeart kNamedHearts[] = {
     {"patient with atria", &wholePatientScene},
     {"whole heart", &wholeHeartScene},
     {"patient's ventricles alone", [](View view) { return sceneOf(Family::patient, view); }}};
 // Named here before the first of their fits. The first two were never used to choose anything.
-constexpr ForeignHeart kStatedHearts[] = {
+constexpr NamedHeart kStatedHearts[] = {
     {"four chambers", &movingFourChambersScene},
     {"template", &movingTemplateScene},
     {"whole heart, muscle keeps its volume", &movingWholeHeartScene}};
@@ -162,10 +158,10 @@ int run(int argc, char** argv) {
   withThreads(0, [&] {
     if (foreign) {
       int n = 0;
-      for (const std::span<const ForeignHeart> group :
-           {std::span(kForeignHearts), std::span(kStatedHearts)})
+      for (const std::span<const NamedHeart> group :
+           {std::span(kNamedHearts), std::span(kStatedHearts)})
         for (const double deg : {0.0, most_deg})
-          for (const ForeignHeart& heart : group) {
+          for (const NamedHeart& heart : group) {
             const int number = n++;
             if (number < first) continue;
             fmt::print("{}, planes off by up to {:g} degrees\n", heart.name, deg);

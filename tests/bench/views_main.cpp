@@ -1,4 +1,4 @@
-// view_table [FAMILY [VIEW|all [TILT]]]: which of eight views of a model lies nearest to a loop of
+// view_table [HEART [VIEW|all [TILT]]]: which of eight views of a model lies nearest to a loop of
 // each view, with its margin. The models are the same heart, a healthy one, and then a population
 // of hearts whose dials are found; at last their planes are tilted by up to TILT degrees. One line
 // for each loop and kind of models, by the discrepancy D and by V of coverage.h.
@@ -13,7 +13,7 @@
 #include "core/parallel.h"
 #include "fit/coverage.h"
 #include "fit/view_ranking.h"
-#include "support/view_loops.h"
+#include "support/moving_statics.h"
 
 namespace echocine::bench {
 namespace {
@@ -91,11 +91,19 @@ void judge(const std::string& what, const std::vector<Nearness>& all, std::size_
   std::fflush(stdout);
 }
 
+constexpr NamedHeart kHearts[] = {
+    {"parametric", [](View view) { return sceneOf(Family::shipped, view); }},
+    {"patient", [](View view) { return sceneOf(Family::patient, view); }},
+    {"whole heart", [](View view) { return sceneOf(Family::whole, view); }},
+    {"patient with atria", &wholePatientScene},
+    {"four chambers", &movingFourChambersScene},
+    {"template", &movingTemplateScene}};
+
 struct Case {
-  Family family;
+  const NamedHeart* heart;
   std::size_t view;
   EchoLoop loop;
-  std::string name() const { return fmt::format("{} {}", nameOf(family), viewNames()[view].key); }
+  std::string name() const { return fmt::format("{} {}", heart->name, viewNames()[view].key); }
 };
 
 SideOptions fromFirstFrame() {
@@ -104,16 +112,15 @@ SideOptions fromFirstFrame() {
   return side;
 }
 
-std::vector<Case> casesOf(const char* family_only, const char* view_only) {
+std::vector<Case> casesOf(const char* heart_only, const char* view_only) {
   std::vector<Case> cases;
-  for (const Family family : kFamilies) {
-    if (family_only != nullptr && std::strcmp(family_only, nameOf(family)) != 0) continue;
+  for (const NamedHeart& heart : kHearts) {
+    if (heart_only != nullptr && std::strcmp(heart_only, heart.name) != 0) continue;
     for (std::size_t v = 0; v < viewNames().size(); ++v)
       if (view_only == nullptr || std::strcmp(view_only, "all") == 0 ||
           std::strcmp(view_only, viewNames()[v].key) == 0)
         cases.push_back(
-            {family, v,
-             scannedLoop(sceneOf(family, viewNames()[v].view), 24, 11 + static_cast<int>(v))});
+            {&heart, v, scannedLoop(heart.in(viewNames()[v].view), 24, 11 + static_cast<int>(v))});
   }
   return cases;
 }
@@ -126,7 +133,7 @@ void judgeModels(const char* what, const std::vector<ModelLoop>& models, const C
     const PoseFound found = discrepancy.search(model);
     all.push_back({found, coverageOf(model, discrepancy.stack(), found.pose), ""});
   }
-  judge(c.name() + ", " + what, all, c.view, scores[std::string(nameOf(c.family)) + ", " + what]);
+  judge(c.name() + ", " + what, all, c.view, scores[std::string(c.heart->name) + ", " + what]);
 }
 
 void judgePopulation(const std::vector<Case>& cases, double tilt_deg,
@@ -152,22 +159,21 @@ void judgePopulation(const std::vector<Case>& cases, double tilt_deg,
   const std::string what = tilt_deg > 0 ? "a population, tilted" : "a population";
   for (std::size_t i = 0; i < cases.size(); ++i)
     judge(cases[i].name() + ", " + what, all[i], cases[i].view,
-          scores[std::string(nameOf(cases[i].family)) + ", " + what]);
+          scores[std::string(cases[i].heart->name) + ", " + what]);
 }
 
-void run(const char* family_only, const char* view_only, double tilt_deg) {
-  const std::vector<Case> cases = casesOf(family_only, view_only);
+void run(const char* heart_only, const char* view_only, double tilt_deg) {
+  const std::vector<Case> cases = casesOf(heart_only, view_only);
   std::map<std::string, Scores> scores;
   if (tilt_deg > 0) {
     judgePopulation(cases, tilt_deg, scores);
   } else {
     const std::vector<ModelLoop> healthy =
         modelsOf([](View view) { return heart::heartScene(heart::parametersFrom({}), view, 20); });
-    std::map<Family, std::vector<ModelLoop>> same;
+    std::map<const NamedHeart*, std::vector<ModelLoop>> same;
     for (const Case& c : cases) {
-      if (!same.contains(c.family))
-        same[c.family] = modelsOf([&](View view) { return sceneOf(c.family, view); });
-      judgeModels("the same heart", same[c.family], c, scores);
+      if (!same.contains(c.heart)) same[c.heart] = modelsOf(c.heart->in);
+      judgeModels("the same heart", same[c.heart], c, scores);
       judgeModels("a healthy heart", healthy, c, scores);
     }
     judgePopulation(cases, 0, scores);

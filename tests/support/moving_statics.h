@@ -236,4 +236,9 @@ inline Scene movingWholeHeartScene(View view) {
   return sceneOfChambers(view, heart, meshes, false);
 }
 
+struct NamedHeart {
+  const char* name;
+  Scene (*in)(View);
+};
+
 }  // namespace echocine::support
