@@ -128,12 +128,12 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
 
 constexpr const char* kUsage =
     "fit_table VIEWS HEARTS|foreign [first=N] [degrees=D] [dials=A,B] [look=LOOK] [own_look=0] "
-    "[own_loops=0] [sections=1]";
+    "[own_loops=0] [sections=1] [beat=0]";
 
 int run(int argc, char** argv) {
   std::map<std::string, std::string> given{
-      {"first", "0"},   {"degrees", ""},    {"dials", ""},    {"look", "scanner"},
-      {"own_look", ""}, {"own_loops", "1"}, {"sections", "0"}};
+      {"first", "0"},   {"degrees", ""},    {"dials", ""},     {"look", "scanner"},
+      {"own_look", ""}, {"own_loops", "1"}, {"sections", "0"}, {"beat", "1"}};
   bool known = argc >= 3;
   for (int i = 3; i < argc; ++i) {
     const std::vector<std::string> parts = splitOption(argv[i], '=');
@@ -170,8 +170,10 @@ int run(int argc, char** argv) {
       return;
     }
     for (int n = first; n < first + hearts; ++n)
-      tellFit(n, plantedHeart(n, views, most_deg, *look, given["sections"] != "0"), options, ef,
-              edv, gls);
+      tellFit(
+          n,
+          plantedHeart(n, views, most_deg, *look, given["sections"] != "0", given["beat"] != "0"),
+          options, ef, edv, gls);
   });
   ef.print();
   edv.print();

@@ -8,8 +8,10 @@
 #include <vector>
 
 #include "core/hash_random.h"
+#include "core/parallel.h"
 #include "core/units.h"
 #include "fit/heart_fit.h"
+#include "frame/simulator.h"
 #include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/probe_placement.h"
 #include "support/view_loops.h"
@@ -20,13 +22,15 @@ inline constexpr View kPlantedViews[] = {View::a4c, View::a2c, View::plax};
 
 struct PlantedHeart {
   std::map<std::string, double> dials;
-  std::vector<echo::EchoLoop> loops;  // of the first kPlantedViews; the first frame is end-diastole
+  // Of the first kPlantedViews; the first frame is end-diastole if `beat_known`.
+  std::vector<echo::EchoLoop> loops;
+  bool beat_known = true;
 
   std::vector<fit::FitLoop> given() const {
     std::vector<fit::FitLoop> out;
     for (std::size_t v = 0; v < loops.size(); ++v) {
       out.push_back({kPlantedViews[v], loops[v], {}});
-      out.back().side.ed_frame = 0;
+      if (beat_known) out.back().side.ed_frame = 0;
     }
     return out;
   }
@@ -50,10 +54,37 @@ inline std::vector<double> volumesOf(const Scene& scene) {
   return ml;
 }
 
+// 2.3 beats of `frames` pictures each, as a scanner sends them without an ECG or a frame rate. They
+// start at the part `start` of a beat.
+inline echo::EchoLoop unknownBeats(Scene scene, int frames, double start, int seed) {
+  constexpr double kBeats = 2.3;
+  scene = ofOtherScanner(std::move(scene), seed);
+  echo::EchoLoop loop = fit::renderedBeat(scene, 1, seed);
+  loop.frames_per_beat = 0;
+  loop.video.rate = {30, "container", false};
+  const double beat_s = 1 / scene.acquisition.heart_rate_hz;
+  scene.acquisition.frame_rate_hz = frames / beat_s;
+  scene.acquisition.beats = 4;  // longer than the loop
+  scene.output.width = loop.video.width, scene.output.height = loop.video.height;
+  scene.output.ecg = scene.output.depth_ticks = false;
+  scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
+  scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
+  const Simulator simulator(scene);
+  loop.video.frames.resize(static_cast<std::size_t>(std::lround(kBeats * frames)));
+  parallelBlocks(loop.video.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i)
+      loop.video.frames[i] =
+          simulator.frame((start + static_cast<double>(i) / frames) * beat_s).image.pixels;
+  });
+  return loop;
+}
+
 // Heart `number` of an endless list in 1 to 3 views, with tilt and rotation of each plane within
-// +-most_deg. sections: sections and walls of other shapes than the models'.
+// +-most_deg. sections: sections and walls of other shapes than the models'. beat_known: one beat
+// from end-diastole, or else unknownBeats().
 inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg,
-                                 Look look = Look::scanner, bool sections = false) {
+                                 Look look = Look::scanner, bool sections = false,
+                                 bool beat_known = true) {
   const auto drawn = [&](int k, double low, double high) {
     return low + (high - low) * uniformFromHash(hashOf(number, k, 911));
   };
@@ -84,8 +115,11 @@ inline PlantedHeart plantedHeart(int number, std::size_t views, double most_deg,
     scene.probe.pose =
         turnedAndTilted(scene.probe.pose, radiansFromDegrees(drawn(30 + k, -most_deg, most_deg)),
                         radiansFromDegrees(drawn(20 + k, -most_deg, most_deg)));
-    out.loops.push_back(scannedLoop(scene, 20, 100 + 7 * number + k));
+    const int seed = 100 + 7 * number + k;
+    out.loops.push_back(beat_known ? scannedLoop(scene, 20, seed)
+                                   : unknownBeats(scene, 25, drawn(40 + k, 0, 1), seed));
   }
+  out.beat_known = beat_known;
   return out;
 }
 

@@ -89,9 +89,8 @@ inline Scene sceneOf(Family family, View view) {
   return parseScene(text.text(), "scene.toml");
 }
 
-// One beat as another scanner shows it: media, gain, grey curve and speckle are its own, drawn from
-// `seed`. The first frame is end-diastole.
-inline echo::EchoLoop scannedLoop(Scene scene, int frames, int seed) {
+// The scene as another scanner shows it: media, gain and grey curve are its own, drawn from `seed`.
+inline Scene ofOtherScanner(Scene scene, int seed) {
   int number = 0;
   const auto drawn = [&](double low, double high) {
     return low + (high - low) * uniformFromHash(hashOf(static_cast<std::uint64_t>(seed), 7,
@@ -104,7 +103,12 @@ inline echo::EchoLoop scannedLoop(Scene scene, int frames, int seed) {
   scene.signal.gain_db += drawn(-6, 6);
   scene.signal.grey_gamma *= drawn(0.8, 1.25);
   scene.signal.dynamic_range_db += drawn(-8, 8);
-  return fit::renderedBeat(std::move(scene), frames, seed);
+  return scene;
+}
+
+// One beat as another scanner shows it, with speckle of its own. The first frame is end-diastole.
+inline echo::EchoLoop scannedLoop(Scene scene, int frames, int seed) {
+  return fit::renderedBeat(ofOtherScanner(std::move(scene), seed), frames, seed);
 }
 
 }  // namespace echocine::support
