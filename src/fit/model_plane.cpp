@@ -113,6 +113,7 @@ namespace {
 struct Place {
   const ContourEdge* cut;
   double x_m, z_m, length_m, nx, nz;
+  bool end = false;  // of an open contour
 };
 
 // Adds places at even steps along a contour. A sum over them is the integral along the contour to
@@ -132,6 +133,7 @@ void stepAlong(const Contour& c, std::span<const ContourEdge> edges, std::vector
   const double pieces = std::max(1.0, std::round(length / kBoundaryPiece_m)),
                piece = length / pieces;
   double next = piece / 2, so_far = 0;
+  const std::size_t before = places.size();
   for (std::size_t i = 0; i < cuts; ++i) {
     const ContourEdge& cut = edges[c.edges[i]];
     const Vec3d n = cut.area_normal;
@@ -143,13 +145,15 @@ void stepAlong(const Contour& c, std::span<const ContourEdge> edges, std::vector
     }
     so_far += lengths[i];
   }
+  if (c.closed || places.size() == before) return;
+  places[before].end = places.back().end = true;
 }
 
 std::vector<SheetPoint> sheetsAt(const std::vector<Place>& places) {
   std::vector<SheetPoint> out;
   for (const Place& p : places)
     out.push_back({static_cast<float>(p.x_m), static_cast<float>(p.z_m), static_cast<float>(p.nx),
-                   static_cast<float>(p.nz)});
+                   static_cast<float>(p.nz), p.end});
   return out;
 }
 

@@ -12,6 +12,11 @@ namespace {
 // edges beyond kBeyond_m are outside the profile. Linear between the two pairs. Our choice.
 constexpr float kSameEdge_m = 2e-3f, kTwoEdges_m = 3.5e-3f;
 constexpr float kInReach_m = 7e-3f, kBeyond_m = 9e-3f;
+// A leaflet is 2 to 3 mm thick, so its side towards the blood is in the profile from farther away,
+// and it never merges with the wall: it moves the visible edge.
+constexpr float kBehind_m = -1.5e-3f, kSheetInReach_m = 8.5e-3f, kSheetBeyond_m = 10.5e-3f;
+// The fibrous ring at a hinge and the thick free edge: a disc of 3 mm, the radius of the ring.
+constexpr float kDisc_m = 3e-3f, kBesideDisc_m = 4.5e-3f;
 // Across the normal: a hat as wide as the pieces' spacing, so that a boundary counts once.
 constexpr auto kAcross_m = static_cast<float>(kBoundaryPiece_m);
 
@@ -20,12 +25,17 @@ float shareAt(float before_m) {
          std::clamp((kBeyond_m - before_m) / (kBeyond_m - kInReach_m), 0.0f, 1.0f);
 }
 
-// Edges in square cells of kBeyond_m.
+float sheetShareAt(float before_m) {
+  return std::clamp((before_m - kBehind_m) / -kBehind_m, 0.0f, 1.0f) *
+         std::clamp((kSheetBeyond_m - before_m) / (kSheetBeyond_m - kSheetInReach_m), 0.0f, 1.0f);
+}
+
+// Edges in square cells of kSheetBeyond_m.
 class EdgeGrid {
  public:
   struct Edge {
     float x, z, nx, nz;
-    bool sheet;
+    bool sheet, end;
   };
 
   explicit EdgeGrid(std::vector<Edge> edges) : edges_(std::move(edges)) {
@@ -53,7 +63,7 @@ class EdgeGrid {
   }
 
  private:
-  static int cellOf(float m) { return static_cast<int>(std::floor(m / kBeyond_m)); }
+  static int cellOf(float m) { return static_cast<int>(std::floor(m / kSheetBeyond_m)); }
   std::size_t number(int i, int k) const {
     return static_cast<std::size_t>((i - low_x_) * (high_z_ - low_z_ + 1) + k - low_z_);
   }
@@ -69,21 +79,25 @@ class EdgeGrid {
 void findSecondEdges(std::span<const SheetPoint> sheets, ModelFrame& frame) {
   std::vector<EdgeGrid::Edge> edges;
   for (const BoundaryPoint& p : frame.boundary)
-    if (p.of_blood) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, false});
-  for (const SheetPoint& p : sheets) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, true});
+    if (p.of_blood) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, false, false});
+  for (const SheetPoint& p : sheets) edges.push_back({p.x_m, p.z_m, p.nx, p.nz, true, p.end});
   const EdgeGrid grid(std::move(edges));
   for (BoundaryPoint& p : frame.boundary) {
     if (!p.of_blood) continue;
-    float second = 0;
+    float second = 0, disc = 0;
     grid.around(p.x_m, p.z_m, [&](const EdgeGrid::Edge& e) {
       const float dx = e.x - p.x_m, dz = e.z - p.z_m, before = -(dx * p.nx + dz * p.nz),
                   across = std::abs(dx * p.nz - dz * p.nx);
+      if (e.end)
+        disc = std::max(
+            disc, sheetShareAt(before) *
+                      std::clamp((kBesideDisc_m - across) / (kBesideDisc_m - kDisc_m), 0.0f, 1.0f));
       if (across >= kAcross_m) return;
-      const float facing = e.nx * p.nx + e.nz * p.nz;
-      second += shareAt(before) * (1 - across / kAcross_m) *
-                (e.sheet ? std::abs(facing) : std::max(facing, 0.0f));
+      const float facing = e.nx * p.nx + e.nz * p.nz, hat = 1 - across / kAcross_m;
+      second += hat * (e.sheet ? sheetShareAt(before) * std::abs(facing)
+                               : shareAt(before) * std::max(facing, 0.0f));
     });
-    p.alone = std::max(0.0f, 1 - second);
+    p.alone = std::max(0.0f, 1 - std::max(second, disc));
   }
 }
 

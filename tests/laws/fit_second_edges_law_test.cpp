@@ -53,12 +53,18 @@ double shareOf(double before_mm) {
   return std::clamp((before_mm - 2) / 1.5, 0.0, 1.0) * std::clamp((9 - before_mm) / 2, 0.0, 1.0);
 }
 
+// Leaflets are thick: they also count where they lie on the wall, and from farther away.
+double sheetShareOf(double before_mm) {
+  return std::clamp((before_mm + 1.5) / 1.5, 0.0, 1.0) *
+         std::clamp((10.5 - before_mm) / 2, 0.0, 1.0);
+}
+
 TEST(FitSecondEdges, AParallelEdgeCountsByItsDistanceAlone) {
   for (double mm = -12; mm < 14; mm += 0.31)
     for (const float first : {0.0f, 0.3f * kStep_m, 0.77f * kStep_m})  // the hats sum to 1
       for (const bool sheet : {false, true})
         EXPECT_NEAR(aloneBehind(row(0.08f - 1e-3f * static_cast<float>(mm), 0, first), sheet),
-                    1 - shareOf(mm), 2e-4)
+                    1 - (sheet ? sheetShareOf(mm) : shareOf(mm)), 2e-4)
             << mm << " mm, " << first;
 }
 
@@ -70,6 +76,22 @@ TEST(FitSecondEdges, OppositeEdgesDoNotCountButSheetsDo) {
   EXPECT_NEAR(aloneBehind(row(z, kPi / 2), false), 1, 1e-5);
   EXPECT_NEAR(aloneBehind(row(z, kPi / 3), false), 0.5, 2e-4);
   EXPECT_NEAR(aloneBehind(row(z, 2 * kPi / 3), true), 0.5, 2e-4);
+}
+
+// Neither the sense nor the direction of a sheet's end counts.
+TEST(FitSecondEdges, TheEndOfASheetIsADisc) {
+  for (double before_mm = -4; before_mm < 13; before_mm += 0.7)
+    for (double across_mm = -6; across_mm < 6; across_mm += 0.4) {
+      ModelFrame frame;
+      frame.boundary = row(0.08f, 0);
+      const BoundaryPoint& wall = frame.boundary[kPieces / 2];
+      const SheetPoint end{wall.x_m + 1e-3f * static_cast<float>(across_mm),
+                           wall.z_m - 1e-3f * static_cast<float>(before_mm), 1, 0, true};
+      findSecondEdges(std::span(&end, 1), frame);
+      const double beside = std::clamp((4.5 - std::abs(across_mm)) / 1.5, 0.0, 1.0);
+      EXPECT_NEAR(wall.alone, 1 - sheetShareOf(before_mm) * beside, 2e-4)
+          << before_mm << " mm before, " << across_mm << " mm across";
+    }
 }
 
 // The inside of a circle faces itself from 2 r away, with the opposite sense.
@@ -112,9 +134,9 @@ TEST(FitSecondEdges, PapillaryMusclesAndLeafletsHideTheWallBehindThem) {
       return count > 0 ? sum / count : -1.0;
     };
     EXPECT_LT(meanAlone("lv_cavity", true), 0.95);
-    EXPECT_GT(meanAlone("lv_cavity", false), 0.98);
+    EXPECT_GT(meanAlone("lv_cavity", false), 0.93);  // 4 mm of 80 mm lie beside the hinge
     EXPECT_GT(meanAlone("la", true), 0.99);
-    EXPECT_GT(meanAlone("ra", false), 0.97);
+    EXPECT_GT(meanAlone("ra", false), 0.95);
   });
 }
 
