@@ -85,6 +85,11 @@ void addViewHints(const ViewFitted& view, HeartFit& fit) {
   if (view.found.terms.overlap < kLeastInSight)
     hint(fmt::format("shows only {:.0f} % of the heart: a loop with the whole ventricle would help",
                      100 * view.found.terms.overlap));
+  if (view.persistence.value_or(0) >= kMuchPersistence)
+    hint(fmt::format(
+        "its pictures are averaged over time (persistence of about {:.1f}), so the ejection "
+        "fraction may be too low: a loop without persistence would help",
+        *view.persistence));
   if (view.found.at_limit)
     hint(fmt::format("the pose is at the limit of its search: is it this view{}?",
                      view.scaled ? " and this scale (--scale, mm_per_pixel)" : ""));

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "core/error.h"
+#include "echo/persistence.h"
 #include "fit/fit_doubts.h"
 #include "fit/fit_strain.h"
 #include "motion/heart/heart.h"
@@ -154,18 +155,28 @@ std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
   return sum / static_cast<double>(views.size());
 }
 
-ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement) {
+double lagBeatsOf(const std::vector<ViewFitted>& views) {
+  double sum = 0;
+  for (const ViewFitted& view : views)
+    if (view.beat.span.frames > 0)
+      sum += echo::lagFrames(view.persistence.value_or(0)) / view.beat.span.frames;
+  return views.empty() ? 0 : sum / static_cast<double>(views.size());
+}
+
+ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement,
+                        double lag_beats) {
   // Hearts of the family, by the number of views; growth outside it.
   constexpr ModelError kPlain[] = {
       {0.015, 0.085, 0.009}, {0.015, 0.05, 0.009}, {0.015, 0.045, 0.009}};
-  constexpr ModelError kWithOwnLook[] = {kPlain[0], {0.01, 0.05, 0.009}, {0.01, 0.02, 0.009}};
+  constexpr ModelError kWithOwnLook[] = {kPlain[0], {0.01, 0.05, 0.009}, {0.01, 0.025, 0.009}};
   constexpr ModelError kOutside{0.14, 0.18, 0.035};
   const std::size_t row = std::clamp(views, std::size_t{1}, kMostLoops) - 1;
   const ModelError& inside = own_look ? kWithOwnLook[row] : kPlain[row];
   const double beyond = 1 - std::clamp(agreement.value_or(kUnmeasuredAgreement), 0.0, 1.0);
-  return {std::hypot(inside.ef, beyond * kOutside.ef),
+  constexpr double kLagOfEf = 0.6, kLagOfStrain = 0.35;
+  return {std::hypot(inside.ef, beyond * kOutside.ef, kLagOfEf * lag_beats),
           std::hypot(inside.edv, beyond * kOutside.edv),
-          std::hypot(inside.gls, beyond * kOutside.gls)};
+          std::hypot(inside.gls, beyond * kOutside.gls, kLagOfStrain * lag_beats)};
 }
 
 void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
@@ -173,7 +184,8 @@ void concludeFit(const FitCost& cost, const std::vector<FitDescent>& descents, H
   fit.cost = best.best.cost;
   fit.dials = cost.dialsAt(best.best.at);
   fit.agreement = agreementOf(fit.views);
-  fit.model_error = modelErrorOf(fit.views.size(), fit.own_look, fit.agreement);
+  fit.model_error =
+      modelErrorOf(fit.views.size(), fit.own_look, fit.agreement, lagBeatsOf(fit.views));
   addDials(cost, best, fit);
   addRivals(cost, descents, fit);
   fit.refusal = refusalOf(fit);

@@ -51,6 +51,7 @@ Json viewsJson(const HeartFit& fit, const std::vector<std::string>& labels) {
     json["tilt_deg"] = degreesFromRadians(view.tilt.tilt_rad);
     json["rotate_deg"] = degreesFromRadians(view.tilt.rotate_rad);
     json["beat"] = beatJson(view.beat);
+    json["persistence"] = view.persistence ? Json(*view.persistence) : Json();
     json["own_look"] =
         view.own_sight ? Json{{"edges", view.own_sight->edges}, {"greys", view.own_sight->greys}}
                        : Json();

@@ -10,6 +10,7 @@
 #include "core/stop.h"
 #include "core/units.h"
 #include "echo/beat_length.h"
+#include "echo/persistence.h"
 #include "fit/cpu_seconds.h"
 #include "fit/fit_descent.h"
 #include "fit/fit_input.h"
@@ -111,6 +112,7 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.found = best.found[v];
     view.own_sight = sides.looks[v].sight();
     view.scaled = loop.metres_per_pixel.has_value();
+    view.persistence = echo::persistenceOf(loop);
     view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
   }

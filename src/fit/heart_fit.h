@@ -69,6 +69,7 @@ struct ViewFitted {
   PlaneTilt tilt;
   PoseFound found;
   bool scaled = true;                   // the loop has a length scale
+  std::optional<double> persistence{};  // p of echo/persistence.h
   std::optional<OwnSight> own_sight{};  // measured with own_look or own_loops
   FitReport report;                     // of the best heart
   // D of the best heart in loops that do not show it; none if the fit was stopped.

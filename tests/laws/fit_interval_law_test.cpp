@@ -36,5 +36,19 @@ TEST(FitInterval, TheModelErrorGrowsWhereLoopsDisagreeWithOwnLoops) {
       }
 }
 
+// The lag is an independent error of motion, not of size.
+TEST(FitInterval, TheModelErrorGrowsWithTheLagOfPersistence) {
+  std::vector<ViewFitted> views(2);
+  views[0].persistence = 0.8;  // 4 frames
+  views[0].beat.span.frames = 25;
+  views[1].beat.span.frames = 40;  // unknown persistence
+  EXPECT_NEAR(lagBeatsOf(views), 0.5 * 4 / 25, 1e-12);
+  EXPECT_EQ(lagBeatsOf({}), 0);
+  const ModelError none = modelErrorOf(1, false, 0.7), lag = modelErrorOf(1, false, 0.7, 0.08);
+  EXPECT_NEAR(lag.ef * lag.ef, none.ef * none.ef + 0.36 * 0.08 * 0.08, 1e-12);
+  EXPECT_NEAR(lag.gls * lag.gls, none.gls * none.gls + 0.35 * 0.35 * 0.08 * 0.08, 1e-12);
+  EXPECT_EQ(lag.edv, none.edv);
+}
+
 }  // namespace
 }  // namespace echocine::fit
