@@ -106,7 +106,7 @@ FitCommand::FitCommand(CLI::App& app) {
   CLI::Option* own_look = command->add_flag(
       "--own-look", own_look_,
       "Expect the edges and grey levels of the found heart's rendered loops: five times the time; "
-      "default with two or three loops");
+      "default with two or three loops, or one with persistence");
   command->add_flag("--no-own-look", no_own_look_, "Expect those of the model alone")
       ->excludes(own_look);
   command->add_flag("--resume", resume_, "Continue a stopped fit in the folder");

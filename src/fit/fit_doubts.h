@@ -14,7 +14,7 @@ inline constexpr double kMostD = 0.9;
 inline constexpr double kLeastInSight = 0.6;
 
 // Persistence (Eq. 26) above which averaging over time is mentioned. Our choice.
-inline constexpr double kMuchPersistence = 0.45;
+inline constexpr double kMuchPersistence = 0.4;
 
 // One line with the reason and what would help; empty if the loops determine the ejection fraction.
 // Refused are: a view with D above kMostD; a view whose mirror image or shuffled pictures the heart

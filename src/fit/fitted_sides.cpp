@@ -6,10 +6,11 @@
 
 #include "core/error.h"
 #include "core/parallel.h"
+#include "echo/persistence.h"
 #include "fit/counted_steps.h"
+#include "fit/fit_doubts.h"
 #include "fit/fit_polish.h"
 #include "fit/fit_regions.h"
-#include "fit/own_loop.h"
 #include "motion/heart/heart.h"
 #include "scene/looks.h"
 
@@ -39,6 +40,14 @@ OwnDiscrepancies pointersTo(const std::deque<ModelDiscrepancy>& own) {
   return out;
 }
 
+// The persistence of own loops with the same lag in beats; none, that of the look, for loops with
+// little: their look was chosen with it.
+std::optional<double> ownPersistence(std::optional<double> in_loop, double frames_per_beat) {
+  if (in_loop.value_or(0) < kMuchPersistence || !(frames_per_beat > 0)) return std::nullopt;
+  const double lag = echo::lagFrames(*in_loop) * kFitFrames / frames_per_beat;
+  return lag / (1 + lag);
+}
+
 // The beat of own loops is that of the model.
 echo::SideOptions beatOf(const ModelLoop& model) {
   echo::SideOptions side;
@@ -55,6 +64,7 @@ FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& he
     families.push_back(
         std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg, true));
   looks.resize(loops.size());
+  for (const FitLoop& one : loops) persistence.push_back(echo::persistenceOf(one.loop));
 }
 
 void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {
@@ -63,6 +73,12 @@ void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<d
     made.emplace_back(loops[v].loop, loops[v].side,
                       families[v]->at(dials, {}, Focus::left_ventricle));
   discrepancies = std::move(made);
+}
+
+RenderedBeats FittedSides::ownLoopsOf(std::size_t view, const FitCost& cost, heart::View name,
+                                      const FitPlace& place, Look look) const {
+  return ownLoops(cost.dialsAt(place.at), name, cost.tiltAt(place.at, view), kFitFrames, look,
+                  ownPersistence(persistence[view], discrepancies[view].beat().span.frames));
 }
 
 std::vector<FitSide> FittedSides::refer() const {
@@ -97,9 +113,8 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
     parallelBlocks(scanners.size(), 1, [&](std::size_t i, std::size_t) {
       if (!steps.next()) return;
       if (costs[i] == kDropped) return steps.done();
-      const echo::EchoLoop loop = ownLoops(cost.dialsAt(place.at), views[v],
-                                           cost.tiltAt(place.at, v), kFitFrames, scanners[i])
-                                      .loop(seedOf(v, 2 * kTwins));
+      const echo::EchoLoop loop =
+          ownLoopsOf(v, cost, views[v], place, scanners[i]).loop(seedOf(v, 2 * kTwins));
       const ModelDiscrepancy own(loop, beatOf(plain), plain);
       ModelLoop model = plain;
       lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
@@ -139,8 +154,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
   parallelBlocks(views.size(), 1, [&](std::size_t v, std::size_t) {
     const ModelLoop plain = plainAt(v, cost, place);
     std::deque<ModelDiscrepancy> own;
-    RenderedBeats rendered = ownLoops(cost.dialsAt(place.at), views[v], cost.tiltAt(place.at, v),
-                                      kFitFrames, rendered_as);
+    RenderedBeats rendered = ownLoopsOf(v, cost, views[v], place, rendered_as);
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!steps.next()) return;
       own.emplace_back(rendered.loop(seedOf(v, (1 + round) * kTwins + twin)), beatOf(plain), plain);
@@ -166,8 +180,7 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::vector<echo::EchoLoop>> loops;
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
-    RenderedBeats rendered = ownLoops(cost.dialsAt(best.at), views[v], cost.tiltAt(best.at, v),
-                                      kFitFrames, sides.rendered_as);
+    RenderedBeats rendered = sides.ownLoopsOf(v, cost, views[v], best, sides.rendered_as);
     const ModelLoop model = own.modelAt(v, cost, best);
     loops.emplace_back();
     others.emplace_back();

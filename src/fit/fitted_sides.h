@@ -3,10 +3,12 @@
 
 #include <deque>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "fit/heart_fit.h"
 #include "fit/own_look.h"
+#include "fit/own_loop.h"
 
 namespace echocine::fit {
 
@@ -15,6 +17,9 @@ struct FittedSides {
   std::deque<ModelDiscrepancy> discrepancies;
   std::vector<ExpectedLook> looks;   // by view; nothing is expected before expectOwnLook()
   Look rendered_as = Look::scanner;  // of own loops
+  // Of the loops (Eq. 26), by view. From kMuchPersistence on, own loops have the same lag in beats;
+  // otherwise they have the persistence of their look.
+  std::vector<std::optional<double>> persistence;
 
   FittedSides() = default;
   FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
@@ -37,6 +42,9 @@ struct FittedSides {
   ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
   // The same without the expected look.
   ModelLoop plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
+  // Own loops of a view's heart at a place, in a look. Throws like expectOwnLook().
+  RenderedBeats ownLoopsOf(std::size_t view, const FitCost& cost, heart::View name,
+                           const FitPlace& place, Look look) const;
 
  private:
   ExpectedSlope slopeOf(std::size_t view, const OwnDiscrepancies& own, const FitCost& cost,

@@ -13,6 +13,7 @@
 #include "echo/persistence.h"
 #include "fit/cpu_seconds.h"
 #include "fit/fit_descent.h"
+#include "fit/fit_doubts.h"
 #include "fit/fit_input.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_progress.h"
@@ -58,6 +59,12 @@ void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& option
   checkTilt(options.tilt_deg);
   checkResamples(options.resamples);
   for (const FitLoop& one : loops) checkMoves(one);
+}
+
+// Only rendered loops show what averaging over time hides.
+bool ownLookFor(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
+  if (options.own_look || loops.size() > 1) return options.ownLook(loops.size());
+  return echo::persistenceOf(loops.front().loop).value_or(0) >= kMuchPersistence;
 }
 
 // The mean over loops that have one, within the models' range.
@@ -112,7 +119,7 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.found = best.found[v];
     view.own_sight = sides.looks[v].sight();
     view.scaled = loop.metres_per_pixel.has_value();
-    view.persistence = echo::persistenceOf(loop);
+    view.persistence = sides.persistence[v];
     view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
   }
@@ -210,9 +217,11 @@ void checkFitViews(const std::vector<heart::View>& views) {
         throw SceneError(fmt::format("fit: {} is given twice", keyOf(views[i])));
 }
 
-HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& options,
+HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& given,
                   const Monitor& monitor) {
-  checkInput(loops, options);
+  checkInput(loops, given);
+  HeartFitOptions options = given;
+  options.own_look = ownLookFor(loops, given);
   const double since = cpuSeconds();
   HeartFit fit;
   fit.dials = options.dials;

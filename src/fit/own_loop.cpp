@@ -57,11 +57,13 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
 }
 
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, Look look) {
+                       const PlaneTilt& tilt, int frames, Look look,
+                       std::optional<double> persistence) {
   Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, look);
   // Half of both changes D with own look by less than its noise. Our choice.
   scene.probe.lines /= 2;
   scene.probe.samples /= 2;
+  scene.artefacts.persistence = persistence.value_or(scene.artefacts.persistence);
   scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
   return {std::move(scene), frames};
 }

@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -39,8 +40,10 @@ inline echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   return RenderedBeats(std::move(scene), frames).loop(seed);
 }
 
-// Loops of a heart, with the plane tilted. Throws SceneError for impossible dials.
+// Loops of a heart, with the plane tilted. persistence: none for that of the look. Throws
+// SceneError for impossible dials.
 RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, Look look = Look::scanner);
+                       const PlaneTilt& tilt, int frames, Look look = Look::scanner,
+                       std::optional<double> persistence = {});
 
 }  // namespace echocine::fit

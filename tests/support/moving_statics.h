@@ -2,6 +2,7 @@
 // Published hearts of one instant, moved by a stated beat with the time course of the patient's
 // left ventricle. Fits were never tuned on the first two.
 
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -34,15 +35,14 @@ inline const std::array<double, kVentricleFrames>& systoleParts() {
   return parts;
 }
 
-// A mesh in all frames; metres_per_unit: of the meshes that result.
+// A mesh in all frames, in mm.
 inline std::vector<std::shared_ptr<const TriangleMesh>> framesOf(const TriangleMesh& mesh_m,
                                                                  const StatedBeat& beat,
-                                                                 double roof_m,
-                                                                 double metres_per_unit) {
+                                                                 double roof_m) {
   std::vector<std::shared_ptr<const TriangleMesh>> frames;
   for (const double part : systoleParts()) {
     TriangleMesh moved = mesh_m;
-    for (Vec3d& p : moved.positions) p = 1 / metres_per_unit * beat.moved(p, part, roof_m);
+    for (Vec3d& p : moved.positions) p = 1e3 * beat.moved(p, part, roof_m);
     frames.push_back(std::make_shared<const TriangleMesh>(std::move(moved)));
   }
   return frames;
@@ -163,7 +163,7 @@ inline NamedMeshes meshesOfChambers(const RealHeart& heart, const BeatStated& st
   for (std::size_t s = 0; s < heart.surfaces.size(); ++s) {
     const RoleSurface& surface = heart.surfaces[s];
     const auto add = [&](const std::string& name, const TriangleMesh& mesh) {
-      const auto frames = framesOf(mesh, beat, roof_m, 1e-3);
+      const auto frames = framesOf(mesh, beat, roof_m);
       for (int k = 0; k < kVentricleFrames; ++k)
         out[frameName(name, k)] = frames[static_cast<std::size_t>(k)];
     };
@@ -214,7 +214,7 @@ inline Scene movingTemplateScene(View view) {
     constexpr double kRoof_m = 60e-3;  // of the tubes, about
     std::map<std::string, std::vector<std::shared_ptr<const TriangleMesh>>> frames;
     for (std::size_t s = 0; s < heart.surfaces.size(); ++s)
-      frames[heart.surfaces[s].name] = framesOf(meshOf(heart, s), beat, kRoof_m, 1e-3);
+      frames[heart.surfaces[s].name] = framesOf(meshOf(heart, s), beat, kRoof_m);
     return wholeMeshes(folder, [&](const std::string& part, int frame) {
       return frames.at(part + "_000")[static_cast<std::size_t>(frame)];
     });
