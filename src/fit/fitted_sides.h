@@ -17,7 +17,7 @@ struct FittedSides {
   std::deque<ModelDiscrepancy> discrepancies;
   std::vector<ExpectedLook> looks;   // by view; nothing is expected before expectOwnLook()
   Look rendered_as = Look::scanner;  // of own loops
-  // Of the loops (Eq. 26), by view. From kMuchPersistence on, own loops have the same lag in beats;
+  // That of each loop (Eq. 26). From kMuchPersistence on, own loops have the same lag in beats;
   // otherwise they have the persistence of their look.
   std::vector<std::optional<double>> persistence;
 
