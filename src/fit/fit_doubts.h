@@ -13,7 +13,8 @@ inline constexpr double kMostD = 0.9;
 // Least share of the heart in the picture without a hint. Our choice.
 inline constexpr double kLeastInSight = 0.6;
 
-// Persistence (Eq. 26) above which averaging over time is mentioned. Our choice.
+// Persistence (Eq. 26) from which on a hint mentions it, own loops have it, and a single loop is
+// fitted with own look. Our choice.
 inline constexpr double kMuchPersistence = 0.4;
 
 // One line with the reason and what would help; empty if the loops determine the ejection fraction.

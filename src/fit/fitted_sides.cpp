@@ -58,13 +58,14 @@ echo::SideOptions beatOf(const ModelLoop& model) {
 
 }  // namespace
 
-FittedSides::FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts,
-                         double tilt_deg, const Monitor& monitor) {
+FittedSides::FittedSides(const std::vector<FitLoop>& loops,
+                         std::vector<std::optional<double>> persistence_, const HeartNodes& hearts,
+                         double tilt_deg, const Monitor& monitor)
+    : persistence(std::move(persistence_)) {
   for (const FitLoop& one : loops)
     families.push_back(
         std::make_shared<const HeartFamily>(hearts, one.view, monitor, tilt_deg, true));
   looks.resize(loops.size());
-  for (const FitLoop& one : loops) persistence.push_back(echo::persistenceOf(one.loop));
 }
 
 void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials) {

@@ -22,8 +22,8 @@ struct FittedSides {
   std::vector<std::optional<double>> persistence;
 
   FittedSides() = default;
-  FittedSides(const std::vector<FitLoop>& loops, const HeartNodes& hearts, double tilt_deg,
-              const Monitor& monitor);
+  FittedSides(const std::vector<FitLoop>& loops, std::vector<std::optional<double>> persistence,
+              const HeartNodes& hearts, double tilt_deg, const Monitor& monitor);
   // With models of these dials, which find the beat. Costs of the earlier ones are invalid then. If
   // it throws, nothing has changed.
   void compare(const std::vector<FitLoop>& loops, const std::vector<double>& dials);

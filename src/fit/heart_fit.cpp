@@ -61,10 +61,17 @@ void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& option
   for (const FitLoop& one : loops) checkMoves(one);
 }
 
+std::vector<std::optional<double>> persistencesOf(const std::vector<FitLoop>& loops) {
+  std::vector<std::optional<double>> out;
+  for (const FitLoop& one : loops) out.push_back(echo::persistenceOf(one.loop));
+  return out;
+}
+
 // Only rendered loops show what averaging over time hides.
-bool ownLookFor(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
-  if (options.own_look || loops.size() > 1) return options.ownLook(loops.size());
-  return echo::persistenceOf(loops.front().loop).value_or(0) >= kMuchPersistence;
+bool ownLookFor(const std::vector<std::optional<double>>& persistence,
+                const HeartFitOptions& options) {
+  if (options.own_look || persistence.size() > 1) return options.ownLook(persistence.size());
+  return persistence.front().value_or(0) >= kMuchPersistence;
 }
 
 // The mean over loops that have one, within the models' range.
@@ -220,9 +227,10 @@ void checkFitViews(const std::vector<heart::View>& views) {
 HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& given,
                   const Monitor& monitor) {
   checkInput(loops, given);
-  HeartFitOptions options = given;
-  options.own_look = ownLookFor(loops, given);
   const double since = cpuSeconds();
+  const std::vector<std::optional<double>> persistence = persistencesOf(loops);
+  HeartFitOptions options = given;
+  options.own_look = ownLookFor(persistence, given);
   HeartFit fit;
   fit.dials = options.dials;
   for (const FitLoop& one : loops)
@@ -237,7 +245,8 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& give
   FittedSides sides = [&] {
     const HeartNodes hearts(fit.dials, design, kFitFrames, progress.next(stages.hearts),
                             cacheOf(options, monitor));
-    return FittedSides(loops, hearts, options.tilt_deg, progress.next(stages.families));
+    return FittedSides(loops, persistence, hearts, options.tilt_deg,
+                       progress.next(stages.families));
   }();
   ::malloc_trim(0);  // the computed hearts took as much memory as a family
   sides.compare(loops, middleOf(design.ranges()));

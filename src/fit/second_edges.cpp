@@ -8,29 +8,27 @@ namespace echocine::fit {
 
 namespace {
 
-// Distances before a boundary, along its normal. Nearer edges than kSameEdge_m merge with its own;
-// edges beyond kBeyond_m are outside the profile. Linear between the two pairs. Our choice.
-constexpr float kSameEdge_m = 2e-3f, kTwoEdges_m = 3.5e-3f;
-constexpr float kInReach_m = 7e-3f, kBeyond_m = 9e-3f;
+// Distances before a boundary, along its normal: an edge counts fully between `from_m` and `to_m`,
+// not at all up to `none_m` and from `beyond_m` on, and linearly between. Our choice.
+struct Reach {
+  float none_m, from_m, to_m, beyond_m;
+
+  float share(float before_m) const {
+    return std::clamp((before_m - none_m) / (from_m - none_m), 0.0f, 1.0f) *
+           std::clamp((beyond_m - before_m) / (beyond_m - to_m), 0.0f, 1.0f);
+  }
+};
+// Nearer boundaries merge with the edge; farther ones are outside the profile.
+constexpr Reach kBoundary{2e-3f, 3.5e-3f, 7e-3f, 9e-3f};
 // A leaflet is 2 to 3 mm thick, so its side towards the blood is in the profile from farther away,
 // and it never merges with the wall: it moves the visible edge.
-constexpr float kBehind_m = -1.5e-3f, kSheetInReach_m = 8.5e-3f, kSheetBeyond_m = 10.5e-3f;
+constexpr Reach kSheet{-1.5e-3f, 0, 8.5e-3f, 10.5e-3f};
 // The fibrous ring at a hinge and the thick free edge: a disc of 3 mm, the radius of the ring.
 constexpr float kDisc_m = 3e-3f, kBesideDisc_m = 4.5e-3f;
 // Across the normal: a hat as wide as the pieces' spacing, so that a boundary counts once.
 constexpr auto kAcross_m = static_cast<float>(kBoundaryPiece_m);
 
-float shareAt(float before_m) {
-  return std::clamp((before_m - kSameEdge_m) / (kTwoEdges_m - kSameEdge_m), 0.0f, 1.0f) *
-         std::clamp((kBeyond_m - before_m) / (kBeyond_m - kInReach_m), 0.0f, 1.0f);
-}
-
-float sheetShareAt(float before_m) {
-  return std::clamp((before_m - kBehind_m) / -kBehind_m, 0.0f, 1.0f) *
-         std::clamp((kSheetBeyond_m - before_m) / (kSheetBeyond_m - kSheetInReach_m), 0.0f, 1.0f);
-}
-
-// Edges in square cells of kSheetBeyond_m.
+// Edges in square cells as wide as the longest reach.
 class EdgeGrid {
  public:
   struct Edge {
@@ -63,7 +61,7 @@ class EdgeGrid {
   }
 
  private:
-  static int cellOf(float m) { return static_cast<int>(std::floor(m / kSheetBeyond_m)); }
+  static int cellOf(float m) { return static_cast<int>(std::floor(m / kSheet.beyond_m)); }
   std::size_t number(int i, int k) const {
     return static_cast<std::size_t>((i - low_x_) * (high_z_ - low_z_ + 1) + k - low_z_);
   }
@@ -90,12 +88,12 @@ void findSecondEdges(std::span<const SheetPoint> sheets, ModelFrame& frame) {
                   across = std::abs(dx * p.nz - dz * p.nx);
       if (e.end)
         disc = std::max(
-            disc, sheetShareAt(before) *
+            disc, kSheet.share(before) *
                       std::clamp((kBesideDisc_m - across) / (kBesideDisc_m - kDisc_m), 0.0f, 1.0f));
       if (across >= kAcross_m) return;
       const float facing = e.nx * p.nx + e.nz * p.nz, hat = 1 - across / kAcross_m;
-      second += hat * (e.sheet ? sheetShareAt(before) * std::abs(facing)
-                               : shareAt(before) * std::max(facing, 0.0f));
+      second += hat * (e.sheet ? kSheet.share(before) * std::abs(facing)
+                               : kBoundary.share(before) * std::max(facing, 0.0f));
     });
     p.alone = std::max(0.0f, 1 - std::max(second, disc));
   }

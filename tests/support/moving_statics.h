@@ -126,10 +126,8 @@ inline TriangleMesh cavityOfCup(const TriangleMesh& cup, Vec3d inside) {
   return cavity;
 }
 
-// Chambers of a heart in a scene, with the beat: every structure in mm. Walls that the meshes lack
-// are put round right ventricle and atria.
-inline Scene sceneOfChambers(View view, const RealHeart& heart, const NamedMeshes& meshes,
-                             bool walls) {
+// Chambers of a heart and the walls around them that have meshes, in a scene.
+inline Scene sceneOfChambers(View view, const RealHeart& heart, const NamedMeshes& meshes) {
   SceneText text;
   text.motion = {{"mesh_unit", "\"mm\""}};
   text.acquisition = {{"heart_rate_bpm", "72.2"}, {"frame_rate_hz", "30.0833"}};
@@ -140,13 +138,14 @@ inline Scene sceneOfChambers(View view, const RealHeart& heart, const NamedMeshe
     text.addStructure(s.name, muscle ? "myocardium" : "blood", "\"" + s.name + "_???.obj\"",
                       muscle ? 10 : (s.role == Role::lv_cavity ? 12 : 11),
                       "role = \"" + std::string(nameOf(s.role)) + "\"\nrepair = [\"split\"]");
-    if (walls && !muscle && s.role != Role::lv_cavity)
+    if (meshes.contains(frameName(s.name + "_wall", 0)))
       text.addStructure(s.name + "_wall", "myocardium", "\"" + s.name + "_wall_???.obj\"", 1);
   }
   return parseScene(text.text(), "scene.toml", meshes);
 }
 
-// Its meshes, in mm, by the names that sceneOfChambers() gives.
+// Meshes of the chambers over the beat, in mm, by the names of sceneOfChambers(). walls: right
+// ventricle and atria get one.
 inline NamedMeshes meshesOfChambers(const RealHeart& heart, const BeatStated& stated, bool walls) {
   constexpr double kRightWall_m = 3e-3, kAtrialWall_m = 2e-3;  // our choice
   const TriangleMesh wall = meshOf(heart, Role::lv_wall);
@@ -196,7 +195,7 @@ inline Scene movingFourChambersScene(View view) {
   }();
   static const NamedMeshes meshes = meshesOfChambers(
       heart, {.ef = 0.52, .rv_ef = 0.50, .shortening = 0.14, .twist_deg = 10}, true);
-  return sceneOfChambers(view, heart, meshes, true);
+  return sceneOfChambers(view, heart, meshes);
 }
 
 // The mean ventricles of a shape model with atria and great vessels, larger than published: the
@@ -233,7 +232,7 @@ inline Scene movingWholeHeartScene(View view) {
   }();
   static const NamedMeshes meshes = meshesOfChambers(
       heart, {.ef = 0.52, .rv_ef = 0.50, .shortening = 0.14, .twist_deg = 10}, false);
-  return sceneOfChambers(view, heart, meshes, false);
+  return sceneOfChambers(view, heart, meshes);
 }
 
 struct NamedHeart {

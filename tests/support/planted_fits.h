@@ -22,9 +22,8 @@ inline constexpr View kPlantedViews[] = {View::a4c, View::a2c, View::plax};
 
 struct PlantedHeart {
   std::map<std::string, double> dials;
-  // Of the first kPlantedViews; the first frame is end-diastole if `beat_known`.
-  std::vector<echo::EchoLoop> loops;
-  bool beat_known = true;
+  std::vector<echo::EchoLoop> loops;  // one for each of the first kPlantedViews
+  bool beat_known = true;             // the first frame of each loop is end-diastole
 
   std::vector<fit::FitLoop> given() const {
     std::vector<fit::FitLoop> out;

@@ -32,12 +32,13 @@ struct LeftVentricle {
 };
 
 // In cylindrical coordinates (r, angle, z) about the long axis, z from the apex to the ring at L,
-// with z_s = a s: lambda = 1 - shortening * s,
+// with the part s of systole and lambda = 1 - shortening * s:
 //   z' = lambda z,   r'^2 = (r^2 - s A(r)) / lambda,
 //   A = ef * min(r, e)^2 + rv_ef * max(0, r^2 - o^2),
 // where e and o are the radii of endocardium and outer border in that direction. Between e and o
-// the map keeps volumes; inside e it scales them by 1 - ef s, beyond o by 1 - rv_ef s.
-// From 0.8 L upwards, emptying fades to a quarter at the ring and to nothing 15 mm above it.
+// the map keeps volumes; inside e it scales them by 1 - ef s, beyond o by 1 - rv_ef s. Twist adds
+// to the angle. From 0.8 L upwards, emptying fades to a quarter at the ring and to nothing 15 mm
+// above it.
 class StatedBeat {
  public:
   StatedBeat(const LeftVentricle& heart, const BeatStated& stated)
