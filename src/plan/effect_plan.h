@@ -43,7 +43,7 @@ struct EffectPlan {
   bool coherent_echoes = false;                    // interfaces keep part of their phase
   bool dropout = false, acoustic_window = false, shading = false, lung = false;
   bool haze = false, reverberation = false;
-  bool harmonic = false, downshift = false;  // of the sampled beam
+  bool harmonic = false, downshift = false, receive_aperture = false;  // of the sampled beam
   bool edge_enhancement = false;
   bool clutter = false, noise = false, persistence = false;
   double clutter_window_db = 0;  // added to the clutter's level: by the acoustic window

@@ -58,6 +58,9 @@ void planPulse(const Scene& scene, EffectPlan& plan) {
                     fmt::format("sent at {:g} MHz, received at {:g} MHz", mhz / 2, mhz));
   plan.downshift = decidePicture(scene, plan, Effect::downshift, s.downshift, sampled, off,
                                  "attenuation takes more of the high frequencies");
+  plan.receive_aperture =
+      decidePicture(scene, plan, Effect::receive_aperture, s.receive_f_number > 0, sampled, off,
+                    fmt::format("it is depth / {:g} wide near the face", s.receive_f_number));
 }
 
 void planGreyMap(const Scene& scene, EffectPlan& plan) {

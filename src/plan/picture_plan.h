@@ -20,10 +20,10 @@ void planAnnulus(const Scene& scene, EffectPlan& plan);
 // plan.backscatter and plan.reflection are decided.
 void planSpeckle(const Scene& scene, EffectPlan& plan);
 
-// Drop-out, ribs, haze, reverberation, clutter, noise and persistence.
-// Second harmonic and downshift. Precondition: plan.beam_width is decided.
+// Second harmonic, downshift and receiving aperture. Precondition: plan.beam_width is decided.
 void planPulse(const Scene& scene, EffectPlan& plan);
 
+// Drop-out, ribs, haze, reverberation, clutter, noise and persistence.
 void planArtefacts(const Scene& scene, EffectPlan& plan);
 
 }  // namespace echocine

@@ -86,6 +86,8 @@ struct Scanner {
 // "faint" has the greys of a loop of a portable scanner with little gain: 44 to 50 % of its sector
 // are under grey 10, the 95 % quantile is 78 to 87, the 99.9 % quantile 141 to 145 (tests/bench).
 constexpr double kNearGainDepth_m = 35e-3;
+// Grain of 1 to 1.2 mm in the near field, where a whole aperture would leave radial streaks.
+constexpr double kReceiveFNumber = 2;
 // Breathing moves skin and lung past the probe by some mm per second, a resolution cell of 2 mm in
 // about half a second: our choice. Near field and lung of two real loops decorrelate in 0.1 s by 2
 // to 14 % (tests/bench).
@@ -189,6 +191,7 @@ void applyProcessing(const Scanner& scanner, Scene& scene) {
   s.interface_limit_db = scanner.interface_limit_db;
   s.harmonic = scanner.harmonic;
   s.downshift = true;
+  s.receive_f_number = kReceiveFNumber;
   s.edge_enhancement = scanner.edge_enhancement;
   scene.speckle.smoothing_m = scanner.smoothing_m;
   scene.speckle.heterogeneity_db = scanner.heterogeneity_db;

@@ -23,6 +23,7 @@ inline constexpr NumberRange kCompressibility_cm2_dyn{.lo = 1e-18, .hi = 1e-3}; 
 inline constexpr NumberRange kCorrelationLength_um{.lo = 0, .hi = 1e9};
 inline constexpr NumberRange kDynamicRange_db{.lo = 0.01, .hi = 1000};
 inline constexpr NumberRange kReferenceIntensity{.lo = 1e-37, .hi = 1e37};  // floats
+inline constexpr NumberRange kFNumber{.lo = 0, .hi = 10};
 inline constexpr NumberRange kGamma{.lo = 0.01, .hi = 100};
 inline constexpr NumberRange kGreyToe{.lo = 0, .hi = 0.3}, kGreyShoulder{.lo = 0, .hi = 0.4};
 inline constexpr NumberRange kEdge{.lo = 0, .hi = 4};

@@ -89,6 +89,11 @@ double speckleWidening(Apodization receive, bool harmonic) {
              : deviationOfPupil(Apodization::uniform, false) / deviationOfPupil(receive, harmonic);
 }
 
+double receivingPart(const Probe& probe, double f_number, double path_m) {
+  constexpr double kLeast = 0.25;
+  return f_number > 0 ? std::clamp(path_m / (f_number * probe.aperture_m), kLeast, 1.0) : 1;
+}
+
 double downshiftOf(const Probe& probe, double pulse_cycles, double attenuation_np_per_m_hz,
                    double path_m) {
   constexpr double kLeast = 0.5;

@@ -89,6 +89,8 @@ struct SignalSettings {
   double grey_gamma = 1, grey_toe = 0, grey_shoulder = 0;
   bool harmonic = false;   // echoes of the second harmonic, sent at half the probe's frequency
   bool downshift = false;  // attenuation lowers the centre frequency with depth
+  // Depth over width of the receiving aperture, which grows up to the whole one; 0: always whole.
+  double receive_f_number = 0;
   // Unsharp masking of grey levels: 0 none; size of its box.
   double edge_enhancement = 0, edge_size_m = 3e-3;
 

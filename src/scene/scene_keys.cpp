@@ -182,6 +182,7 @@ constexpr SceneKey kKeys[] = {
     {"signal", "grey_shoulder", kNone, ranges::kGreyShoulder, "highest fraction of the dynamic range, over which the slope falls to 0 at white", AT(SignalSettings, grey_shoulder)},
     {"signal", "harmonic", kNone, kAny, "second-harmonic imaging: sent at half of probe.frequency_mhz; for beam_width = \"profile\"", AT(SignalSettings, harmonic)},
     {"signal", "downshift", kNone, kAny, "attenuation lowers the centre frequency with depth, which widens beam and speckle cells; for beam_width = \"profile\"", AT(SignalSettings, downshift)},
+    {"signal", "receive_f_number", kNone, ranges::kFNumber, "near the face the receiving aperture is depth / receive_f_number wide, at least a quarter of probe.aperture_mm, which widens beam and speckle cells; 0: the whole aperture; for beam_width = \"profile\"", AT(SignalSettings, receive_f_number)},
     {"signal", "edge_enhancement", kNone, ranges::kEdge, "unsharp masking of grey levels: factor of their difference from the mean", AT(SignalSettings, edge_enhancement)},
     {"signal", "edge_size_mm", kMm, ranges::kArtefactLength_mm, "size of the box of that mean", AT(SignalSettings, edge_size_m)},
 

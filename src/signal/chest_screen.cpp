@@ -45,12 +45,13 @@ double ChestScreen::mean(double left_m, double right_m) const {
 }
 
 double ChestScreen::factor(double start_x_m, double x_m, double z_m) const {
-  if (!(z_m > depth_m_)) return 1;
-  constexpr double kLeastWidth_m = 1e-5;  // close behind the screen paths still need a width
-  const double share = depth_m_ / z_m;
+  constexpr double kLeastWidth_m = 1e-5;  // within the wall paths still need a width
+  const double passed = std::clamp(z_m / depth_m_, 0.0, 1.0);
+  const double share = z_m > depth_m_ ? depth_m_ / z_m : 1;
   const double middle_m = start_x_m * (1 - share) + x_m * share;
   const double half_m = std::max(0.5 * aperture_m_ * (1 - share), kLeastWidth_m);
   const double amplitude = mean(middle_m - half_m, middle_m + half_m);
+  if (passed < 1) return std::pow(amplitude, 4 * passed);
   return amplitude * amplitude * amplitude * amplitude;
 }
 

@@ -15,10 +15,11 @@ namespace echocine {
 // with s the deviation in dB of one passage and n a standard normal field, smooth over the grain;
 // the mean of t is 1. Elements of the aperture D at the start of a line reach (x, z) through the
 // part of the screen from (start - D/2)(1 - d/z) + x d/z to (start + D/2)(1 - d/z) + x d/z. Both
-// ways, the intensity factor is the fourth power of the mean of t over that part; 1 in front of the
-// screen. An aperture much smaller than the grain has 2 s dB of variation, a much larger one none.
-// Energy fluctuations of 1.6 dB over a few mm were measured behind chest walls (Hinkelman et al.,
-// J. Acoust. Soc. Am. 101, 2365-2373, 1997); larger patches are our choice.
+// ways, the intensity factor is the fourth power of the mean of t over that part. Between face and
+// screen the loss grows in dB with the depth, t(x)^(4 z/d), as in a wall of even thickness. An
+// aperture much smaller than the grain has 2 s dB of variation, a much larger one none. Energy
+// fluctuations of 1.6 dB over a few mm were measured behind chest walls (Hinkelman et al., J.
+// Acoust. Soc. Am. 101, 2365-2373, 1997); larger patches are our choice.
 class ChestScreen {
  public:
   ChestScreen(const Probe& probe, const ArtefactSettings& settings);

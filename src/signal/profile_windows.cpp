@@ -115,14 +115,16 @@ class WindowBuilder {
     const double path_m =
         0.5 * (geometry_.sampleDepth(zone.first) + geometry_.sampleDepth(zone.last - 1));
     // P depends on u k_f and q k_f, so a lower frequency scales both.
-    scale_ = downshiftOf(probe_, pulse_.cycles, pulse_.downshift_np_per_m_hz, path_m);
+    frequency_ = downshiftOf(probe_, pulse_.cycles, pulse_.downshift_np_per_m_hz, path_m);
+    // The receiving aperture scales u alone: near the face the sent beam is even and wide.
+    scale_ = frequency_ * receivingPart(probe_, pulse_.receive_f_number, path_m);
     for (int row = 0; row < all_.rows; ++row) addWindow(row, path_m);
   }
 
  private:
   void addWindow(int row, double path_m) {
     const SampledBeam::Profile profile =
-        beam_.at(scale_ * beam_.defocus(path_m, directions_.steering(row)));
+        beam_.at(frequency_ * beam_.defocus(path_m, directions_.steering(row)));
     const int group = all_.in_group, rows = all_.rows;
     const std::span<const double> borders = directions_.borders(row, path_m);
     const auto border = [&](int before) { return borders[static_cast<std::size_t>(before)]; };
@@ -156,7 +158,8 @@ class WindowBuilder {
   ProfileWindows::Part& part_;
   const Probe& probe_;
   const BeamPulse& pulse_;
-  double scale_ = 1;  // centre frequency at the depth of a zone, over that of the pulse
+  // At the depth of a zone: centre frequency over that of the pulse, and the factor of u.
+  double frequency_ = 1, scale_ = 1;
   ScanGeometry geometry_;
   Directions directions_;
   const SampledBeam& beam_;
@@ -215,7 +218,7 @@ auto keyOf(const Probe& probe, const BeamPulse& pulse) {
   return std::tuple(kind, first_angle, last_angle, face_radius, first_offset, last_offset,
                     min_depth, max_depth, frequency, aperture, focus, apodization, bandwidth,
                     line_count, sample_count, pulse.cycles, pulse.harmonic,
-                    pulse.downshift_np_per_m_hz);
+                    pulse.downshift_np_per_m_hz, pulse.receive_f_number);
 }
 
 }  // namespace

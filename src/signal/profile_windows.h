@@ -9,16 +9,19 @@
 
 namespace echocine {
 
-// Properties of the pulse that shape the beam. The attenuation of (B5) is 0 without downshift.
+// Properties of pulse and receiver that shape the beam. The attenuation of (B5) is 0 without
+// downshift, the F-number is 0 if the whole aperture receives from every depth.
 struct BeamPulse {
   // A length alone is a fundamental pulse.
-  BeamPulse(double length_cycles, bool second_harmonic = false, double attenuation_np_per_m_hz = 0)
+  BeamPulse(double length_cycles, bool second_harmonic = false, double attenuation_np_per_m_hz = 0,
+            double f_number = 0)
       : cycles(length_cycles),
         harmonic(second_harmonic),
-        downshift_np_per_m_hz(attenuation_np_per_m_hz) {}
+        downshift_np_per_m_hz(attenuation_np_per_m_hz),
+        receive_f_number(f_number) {}
   double cycles;
   bool harmonic;
-  double downshift_np_per_m_hz;
+  double downshift_np_per_m_hz, receive_f_number;
 };
 
 struct ProfileWindows {

@@ -45,7 +45,8 @@ double hazeLevel(const ArtefactSettings& artefacts, const EffectPlan& plan) {
 
 BeamPulse pulseOf(const Scene& scene, const EffectPlan& plan) {
   const SignalSettings& s = scene.signal;
-  return {s.pulse_cycles, plan.harmonic, plan.downshift ? s.nominal_gain_np_per_m_hz : 0};
+  return {s.pulse_cycles, plan.harmonic, plan.downshift ? s.nominal_gain_np_per_m_hz : 0,
+          plan.receive_aperture ? s.receive_f_number : 0};
 }
 
 }  // namespace

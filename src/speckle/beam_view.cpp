@@ -104,7 +104,7 @@ bool BeamView::sees(const BeamCube& c, LineRange lines) const {
 
 double BeamView::lateralLines(double path_m) const {
   const double at_m = linear_ ? 1 : probe_.face_radius_m + path_m;
-  return at_m > 0 ? spread_.widening(path_m) * spread_.angle_rad * path_m / (pitch_ * at_m) : 0;
+  return at_m > 0 ? spread_.angle(path_m) * path_m / (pitch_ * at_m) : 0;
 }
 
 Extent extentOf(const CubeCorners& corners, double margin_m) {

@@ -25,42 +25,81 @@ LateralTaps::LateralTaps(const SplatGrid& grid, int samples)
       even_(grid.even()),
       samples_((samples + kSumStep - 1) / kSumStep * kSumStep),
       range_(tapRange(*std::max_element(grid.deviations().begin(), grid.deviations().end()), 0,
-                      grid.across().nodes(grid.across().coarser - 1))) {
-  for (int line = 0; line < period_lines_; ++line) fit(grid, grid.across().nodes(line));
+                      grid.across().nodes(grid.across().coarser - 1))),
+      pieces_(even_ ? 1 : static_cast<std::size_t>((samples_ + kPiece - 1) / kPiece)) {
+  for (int line = 0; line < period_lines_; ++line)
+    even_ ? fitEven(grid.deviations().front(), grid.across().nodes(line))
+          : fitPieces(grid.deviations(), grid.across().nodes(line));
 }
 
-void LateralTaps::fit(const SplatGrid& grid, double phase) {
-  const std::vector<double>& deviations = grid.deviations();
-  const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
-  const TapRange range = tapRange(*most, phase, phase);
-  const auto count = static_cast<std::size_t>(range.count);
-  phases_.push_back({range, even_ ? even_taps_.size() : taps_.size()});
-  if (even_) {
-    const std::vector<double> taps = amplitudeTaps(*most, phase, range);
-    for (std::size_t m = 0; m < count; ++m) {
-      const Floats4 tap = tapOf(taps, m);
-      CacheLine line{};
-      std::memcpy(line.floats, &tap, sizeof tap);
-      std::memcpy(line.floats + kNodeFloats, &tap, sizeof tap);
-      even_taps_.push_back(line);
-    }
-    return;
+void LateralTaps::fitEven(double deviation, double phase) {
+  const TapRange range = tapRange(deviation, phase, phase);
+  phases_.push_back({range, even_taps_.size()});
+  const std::vector<double> taps = amplitudeTaps(deviation, phase, range);
+  for (std::size_t m = 0; m < taps.size(); ++m) {
+    const Floats4 tap = tapOf(taps, m);
+    CacheLine line{};
+    std::memcpy(line.floats, &tap, sizeof tap);
+    std::memcpy(line.floats + kNodeFloats, &tap, sizeof tap);
+    even_taps_.push_back(line);
   }
-  std::vector<std::vector<double>> fits;
-  for (int i = 0; i < kFits; ++i)
-    fits.push_back(amplitudeTaps(*least + (*most - *least) * i / (kFits - 1), phase, range));
-  const std::size_t first = taps_.size();
-  taps_.resize(first + count * static_cast<std::size_t>(samples_));
-  std::vector<double> taps(count);
-  for (std::size_t k = 0; k < static_cast<std::size_t>(samples_); ++k) {
-    const double deviation = deviations[std::min(k, deviations.size() - 1)];
-    const double at = (deviation - *least) / (*most - *least) * (kFits - 1);
-    const auto below = std::min(static_cast<std::size_t>(at), static_cast<std::size_t>(kFits - 2));
+}
+
+namespace {
+
+// Taps by width, in equal steps from the least to the most, and between two of them.
+class TapFits {
+ public:
+  TapFits(const std::vector<double>& deviations, double phase) {
+    const auto [least, most] = std::minmax_element(deviations.begin(), deviations.end());
+    least_ = *least;
+    per_width_ = (kFits - 1) / (*most - *least);
+    for (int i = 0; i < kFits; ++i) {
+      const double width = *least + (*most - *least) * i / (kFits - 1);
+      ranges_.push_back(tapRange(width, phase, phase));
+      fits_.push_back(amplitudeTaps(width, phase, ranges_.back()));
+    }
+  }
+
+  // Those of a deviation within a range, 0 beyond their own.
+  void between(double deviation, TapRange range, std::vector<double>& taps) const {
+    const double at = (deviation - least_) * per_width_;
+    const auto below = std::min(static_cast<std::size_t>(at), std::size_t{kFits - 2});
     const double part = at - static_cast<double>(below);
-    for (std::size_t m = 0; m < count; ++m)
-      taps[m] = (1 - part) * fits[below][m] + part * fits[below + 1][m];
-    for (std::size_t m = 0; m < count; ++m)
-      taps_[first + m * static_cast<std::size_t>(samples_) + k] = tapOf(taps, m);
+    taps.assign(static_cast<std::size_t>(range.count), 0.0);
+    add(below, 1 - part, range, taps);
+    add(below + 1, part, range, taps);
+  }
+
+ private:
+  void add(std::size_t fit, double weight, TapRange range, std::vector<double>& taps) const {
+    const int before = ranges_[fit].first - range.first;
+    for (int m = std::max(before, 0); m < std::min(before + ranges_[fit].count, range.count); ++m)
+      taps[static_cast<std::size_t>(m)] +=
+          weight * fits_[fit][static_cast<std::size_t>(m - before)];
+  }
+
+  double least_ = 0, per_width_ = 0;
+  std::vector<TapRange> ranges_;
+  std::vector<std::vector<double>> fits_;
+};
+
+}  // namespace
+
+void LateralTaps::fitPieces(const std::vector<double>& deviations, double phase) {
+  const TapFits fits(deviations, phase);
+  std::vector<double> taps;
+  for (std::ptrdiff_t from = 0; from < samples_; from += kPiece) {
+    const auto first = std::min(deviations.begin() + from, deviations.end() - 1);
+    const auto last = std::min(first + kPiece, deviations.end());
+    const TapRange range = tapRange(*std::max_element(first, last), phase, phase);
+    phases_.push_back({range, taps_.size()});
+    taps_.resize(taps_.size() + static_cast<std::size_t>(range.count * kPiece));
+    for (std::ptrdiff_t k = 0; k < kPiece; ++k) {
+      fits.between(*std::min(first + k, last - 1), range, taps);
+      for (std::size_t m = 0; m < taps.size(); ++m)
+        taps_[phases_.back().first + m * kPiece + static_cast<std::size_t>(k)] = tapOf(taps, m);
+    }
   }
 }
 
@@ -94,11 +133,11 @@ template <bool even>
 void LateralTaps::sumRows(const float* const* rows, const float* taps, int count,
                           std::ptrdiff_t from, std::ptrdiff_t to, const LineSums& sums) const {
   const std::ptrdiff_t stride =
-      even ? static_cast<std::ptrdiff_t>(std::size(CacheLine{}.floats)) : samples_ * kNodeFloats;
+      even ? static_cast<std::ptrdiff_t>(std::size(CacheLine{}.floats)) : kPiece * kNodeFloats;
   for (std::ptrdiff_t k = from; k < to; k += kSumStep) {
     Floats8 sum[kSumChains] = {};
     for (int m = 0; m < count; ++m) {
-      const float* tap = taps + m * stride + (even ? 0 : k * kNodeFloats);
+      const float* tap = taps + m * stride + (even ? 0 : (k - from) * kNodeFloats);
       const float* row = rows[m] + k * kNodeFloats;
       for (std::ptrdiff_t c = 0; c < kSumChains; ++c)
         sum[c] += lanesAt(tap + (even ? 0 : 8 * c)) * lanesAt(row + 8 * c);
@@ -109,7 +148,8 @@ void LateralTaps::sumRows(const float* const* rows, const float* taps, int count
 
 void LateralTaps::sum(const float* const* rows, int line, std::ptrdiff_t from, std::ptrdiff_t to,
                       const LineSums& sums) const {
-  const Phase& phase = phases_[static_cast<std::size_t>(line % period_lines_)];
+  const Piece& phase = phases_[static_cast<std::size_t>(line % period_lines_) * pieces_ +
+                               (even_ ? 0 : static_cast<std::size_t>(from / kPiece))];
   const float* const* first = rows + (phase.range.first - range_.first);
   if (even_)
     sumRows<true>(first, even_taps_[phase.first].floats, phase.range.count, from, to, sums);

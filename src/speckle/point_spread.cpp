@@ -39,7 +39,7 @@ PointSpread::PointSpread(const Probe& probe, double pulse_cycles, bool harmonic)
 
 namespace {
 
-// Harmonic and downshift belong to the sampled beam (planPulse()).
+// Harmonic, downshift and receiving aperture belong to the sampled beam (planPulse()).
 bool isSampled(const Scene& scene) {
   return scene.signal.beam_width == BeamWidth::profile && scene.accuracy.rays_per_beam == 1;
 }
@@ -50,14 +50,19 @@ PointSpread::PointSpread(const Scene& scene)
     : PointSpread(scene.probe, scene.signal.pulse_cycles,
                   scene.signal.harmonic && isSampled(scene)) {
   const SignalSettings& s = scene.signal;
-  if (s.downshift && isSampled(scene) && scene.probe.lines > 1)
-    attenuation_np_per_m_hz_ = s.nominal_gain_np_per_m_hz;
+  if (!isSampled(scene) || scene.probe.lines == 1) return;
+  if (s.downshift) attenuation_np_per_m_hz_ = s.nominal_gain_np_per_m_hz;
+  receive_f_number_ = s.receive_f_number;
 }
 
 double PointSpread::widening(double path_m) const {
   return attenuation_np_per_m_hz_ > 0
              ? 1 / downshiftOf(probe_, pulse_cycles_, attenuation_np_per_m_hz_, path_m)
              : 1;
+}
+
+double PointSpread::angle(double path_m) const {
+  return widening(path_m) * angle_rad / receivingPart(probe_, receive_f_number_, path_m);
 }
 
 double PointSpread::lateralWidth(double path_m) const {

@@ -47,6 +47,7 @@ constexpr AddedEffect kAdded[] = {
 // Effects of the bare frame itself: that frame next to one without the effect.
 constexpr AddedEffect kRemoved[] = {
     {"downshift", [](Scene& s, const Scene&) { s.signal.downshift = false; }},
+    {"receive_aperture", [](Scene& s, const Scene&) { s.signal.receive_f_number = 0; }},
     {"heterogeneity", [](Scene& s, const Scene&) { s.speckle.heterogeneity_db = 0; }},
     {"anisotropy", [](Scene& s, const Scene&) { s.speckle.anisotropy_db = 0; }},
     {"trabeculae", [](Scene& s, const Scene&) { s.trabeculae.deviation_m = 0; }},

@@ -75,11 +75,22 @@ TEST(ChestScreenLaw, EvensOutBehindAnApertureOfManyPatches) {
   EXPECT_NEAR(less / wide, 2, 0.3);
 }
 
-TEST(ChestScreenLaw, IsOneInFrontAndFollowsPathsBehind) {
+// A wall of even thickness: in dB, half of the loss at half the depth, and no step at its far side.
+TEST(ChestScreenLaw, GrowsWithinTheWallWithoutAStep) {
+  const ChestScreen screen(sectorProbe(), patches(4, 8e-3, 7));
+  for (const double x_m : {-0.015, 0.0, 0.01}) {
+    EXPECT_EQ(screen.factor(0, x_m, 0), 1);
+    const double behind = screen.factor(0, x_m, 0.02 + 1e-9);
+    EXPECT_NEAR(screen.factor(0, x_m, 0.01), std::sqrt(behind), 1e-3 * behind);
+    EXPECT_NEAR(screen.factor(0, x_m, 0.005), std::pow(behind, 0.25), 1e-3 * behind);
+    EXPECT_NEAR(screen.factor(0, x_m, 0.02 - 1e-9), behind, 1e-3 * behind);
+  }
+}
+
+TEST(ChestScreenLaw, FollowsPathsBehind) {
   Probe probe = sectorProbe();
   probe.aperture_m = 0.02;
   const ChestScreen screen(probe, patches(4, 8e-3, 7));
-  EXPECT_EQ(screen.factor(0, 0.01, 0.02), 1);
   for (const auto& [x_m, z_m] : {std::pair(0.0, 0.05), {0.03, 0.06}, {-0.02, 0.12}}) {
     constexpr int kElements = 20000;  // second way: the mean over elements
     double sum = 0;
