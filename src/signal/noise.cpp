@@ -145,7 +145,20 @@ NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic, double win
       // The plane repeats: over a full turn, after as many lines as there are.
       random_(scene.probe.isFullTurn() ? scene.probe.lines : std::max(scene.probe.lines, 128),
               std::max(scene.probe.samples, 512), grainOf(scene, scene.artefacts.clutter_width_rad),
-              seed_) {}
+              seed_),
+      middle_line_(0.5f * static_cast<float>(scene.probe.lines - 1)) {
+  if (!scene.probe.isSector() || scene.probe.face_radius_m > 0) return;
+  unlike_ = static_cast<float>(1 - random_.correlation({}, {1, 0}));
+  const PointSpread spread(scene);
+  const ScanGeometry geometry(scene.probe);
+  const double over_cell =
+      std::max(1.0, scene.artefacts.clutter_width_rad / kWidthAtHalf / spread.angle_rad);
+  for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
+    const double part = spread.receiving(geometry.sampleDepth(static_cast<int>(k))) * over_cell;
+    if (part >= 1) break;
+    closer_.push_back(static_cast<float>(part));
+  }
+}
 
 // Later attempts go on across the end of the samples, where the plane repeats.
 PlaneShift NearFieldClutter::drawn(std::int64_t number, int attempt) const {
@@ -181,6 +194,7 @@ PlaneShift NearFieldClutter::shiftOf(std::int64_t number) const {
 void NearFieldClutter::addField(float scale, std::int64_t number, int line, float* real,
                                 float* imaginary) const {
   const PlaneShift shift = shiftOf(number);
+  addWidened(scale, shift, line, real, imaginary);
   const int from = (line + shift.lines) % random_.lines();
   const float *re = random_.real(from), *im = random_.imaginary(from);
   const auto first = static_cast<std::size_t>(shift.samples),
@@ -192,8 +206,30 @@ void NearFieldClutter::addField(float scale, std::int64_t number, int line, floa
       imaginary[k] += scale * amplitudes_[k] * i[k - begin];
     }
   };
-  addRun(0, split, re + first, im + first);
-  addRun(split, amplitudes_.size(), re, im);
+  const std::size_t widened = closer_.size(), near = std::min(widened, split);
+  addRun(near, split, re + first + near, im + first + near);
+  const std::size_t far = std::max(widened, split);
+  addRun(far, amplitudes_.size(), re + (far - split), im + (far - split));
+}
+
+// Between two lines of the plane, with the power of one of them: 1 / sqrt(1 - 2 y) to 1 %, with y =
+// part (1 - part) (1 - correlation) of up to 1/4.
+void NearFieldClutter::addWidened(float scale, PlaneShift shift, int line, float* real,
+                                  float* imaginary) const {
+  const int lines = random_.lines(), samples = random_.samples();
+  const auto once = [](int at, int period) { return at < period ? at : at - period; };
+  for (std::size_t k = 0; k < closer_.size(); ++k) {
+    const float at = middle_line_ + (static_cast<float>(line) - middle_line_) * closer_[k];
+    const auto before = static_cast<int>(at);
+    const float part = at - static_cast<float>(before), y = part * (1 - part) * unlike_;
+    const int from = once(before + shift.lines, lines), next = once(from + 1, lines),
+              sample = once(static_cast<int>(k) + shift.samples, samples);
+    const float of = scale * amplitudes_[k] * (1 + y * (1 + 1.5f * y));
+    const float first = of * (1 - part), second = of * part;
+    real[k] += first * random_.real(from)[sample] + second * random_.real(next)[sample];
+    imaginary[k] +=
+        first * random_.imaginary(from)[sample] + second * random_.imaginary(next)[sample];
+  }
 }
 
 void NearFieldClutter::add(double white, double time_s, int line, float* real,

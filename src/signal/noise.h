@@ -47,9 +47,10 @@ class ReceiverNoise {
 // Reverberation between face and chest wall: mean power level white exp(-r / length) at the path
 // length r. It stands still with the probe while the heart beats, or is renewed as skin and probe
 // move with breathing: after clutter_time_s it is the next of independent fields, and cos and sin
-// of a quarter turn blend two of them in between, which keeps the mean power. It ends 60 dB below
-// its level. The second harmonic has hardly built up there: its clutter is weaker by the build-up
-// and its gain (harmonic.h).
+// of a quarter turn blend two of them in between, which keeps the mean power. Its grain is at least
+// as wide as a cell of speckle; near the face of a phased probe with signal.receive_f_number it
+// widens with that. It ends 60 dB below its level. The second harmonic has hardly built up there:
+// its clutter is weaker by the build-up and its gain (harmonic.h).
 class NearFieldClutter {
  public:
   explicit NearFieldClutter(const Scene& scene, bool harmonic = false, double window_db = 0);
@@ -60,11 +61,16 @@ class NearFieldClutter {
   PlaneShift drawn(std::int64_t number, int attempt) const;
   PlaneShift shiftOf(std::int64_t number) const;
   void addField(float scale, std::int64_t number, int line, float* real, float* imaginary) const;
+  void addWidened(float scale, PlaneShift shift, int line, float* real, float* imaginary) const;
 
   std::vector<float> amplitudes_;  // up to its end
   double renewed_s_;
   std::uint64_t seed_;
   RandomPlane random_;
+  // Near the face, lines are so much closer to the middle of the plane.
+  std::vector<float> closer_;
+  float middle_line_;
+  float unlike_ = 0;  // 1 less the correlation of neighbouring lines of the plane
 };
 
 }  // namespace echocine

@@ -61,8 +61,12 @@ double PointSpread::widening(double path_m) const {
              : 1;
 }
 
+double PointSpread::receiving(double path_m) const {
+  return receivingPart(probe_, receive_f_number_, path_m);
+}
+
 double PointSpread::angle(double path_m) const {
-  return widening(path_m) * angle_rad / receivingPart(probe_, receive_f_number_, path_m);
+  return widening(path_m) * angle_rad / receiving(path_m);
 }
 
 double PointSpread::lateralWidth(double path_m) const {

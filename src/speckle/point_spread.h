@@ -42,6 +42,8 @@ struct PointSpread {
   double elevationWidth(double path_m) const;  // w_e
   // Factor of axial_m at a path length; 1 without downshift.
   double widening(double path_m) const;
+  // Part of the aperture that receives from there.
+  double receiving(double path_m) const;
   // Lateral sigma over path length there.
   double angle(double path_m) const;
   // Volume of a resolution cell without downshift; limited near the probe to its value at 3 mm of

@@ -13,6 +13,7 @@
 #include "plan/effect_plan.h"
 #include "scene/sampled_beam.h"
 #include "scene/scan_geometry.h"
+#include "signal/noise.h"
 #include "signal/profile_average.h"
 #include "speckle/beam_view.h"
 #include "support/array_probe.h"
@@ -174,6 +175,51 @@ TEST(ReceiveApertureLaw, GrainFollowsThePartThatReceives) {
           << path_m;
     scene.signal.beam_width = BeamWidth::focused;
     EXPECT_EQ(PointSpread(scene).angle(0.01), PointSpread(scene).angle_rad);
+  }
+}
+
+// Correlation of the intensity of clutter between lines `apart`, at a sample, and its mean.
+std::pair<double, double> clutterAt(const Scene& scene, double path_m, int apart) {
+  const auto k =
+      static_cast<std::size_t>((path_m - scene.probe.min_depth_m) / scene.probe.sampleSpacing());
+  double sum = 0, squares = 0, products = 0, n = 0;
+  Scene seeded = scene;
+  for (seeded.artefacts.clutter_seed = 1; seeded.artefacts.clutter_seed <= 40;
+       ++seeded.artefacts.clutter_seed) {
+    const NearFieldClutter clutter(seeded);
+    std::vector<double> powers;
+    for (int i = 0; i < scene.probe.lines; ++i) {
+      std::vector<float> re(static_cast<std::size_t>(scene.probe.samples)), im(re.size());
+      clutter.add(1, 0.07, i, re.data(), im.data());
+      powers.push_back(static_cast<double>(re[k] * re[k] + im[k] * im[k]));
+    }
+    for (std::size_t i = 0; i + static_cast<std::size_t>(apart) < powers.size(); ++i) {
+      const double p = powers[i], q = powers[i + static_cast<std::size_t>(apart)];
+      sum += p, squares += p * p, products += p * q, n += 1;
+    }
+  }
+  const double mean = sum / n;
+  return {(products / n - mean * mean) / (squares / n - mean * mean), mean};
+}
+
+// The intensity of a complex Gaussian field correlates by exp(-d^2 / 2 s^2) at d lines.
+TEST(ReceiveApertureLaw, ClutterOfAPhasedProbeHasTheGrainOfSpeckle) {
+  const SpeckleBed bed(ProbeKind::phased, 192, 300, 0.003, 0.1);
+  Scene scene = plainScene({medium("tissue", 1060, 1540, 15, 0.1)});
+  scene.probe = bed.probe;
+  scene.signal.beam_width = BeamWidth::profile;
+  scene.artefacts.clutter_length_m = 0.1;
+  scene.artefacts.clutter_time_s = 0.05;
+  scene.artefacts.clutter_db = 0;
+  scene.artefacts.clutter_width_rad = 0;
+  scene.signal.receive_f_number = 2;
+  const BeamView view(bed.probe, PointSpread(scene));
+  for (const double path_m : {0.006, 0.012, 0.02, 0.05}) {
+    const double sigma = view.lateralLines(path_m);
+    const int apart = static_cast<int>(std::lround(sigma));
+    const auto [correlation, mean] = clutterAt(scene, path_m, apart);
+    EXPECT_NEAR(correlation, std::exp(-0.5 * apart * apart / (sigma * sigma)), 0.1) << path_m;
+    EXPECT_NEAR(mean / std::exp(-path_m / 0.1), 1, 0.1) << path_m;
   }
 }
 
