@@ -87,6 +87,7 @@ struct Scanner {
 // are under grey 10, the 95 % quantile is 78 to 87, the 99.9 % quantile 141 to 145 (tests/bench).
 constexpr double kNearGainDepth_m = 35e-3;
 // Grain of 1 to 1.2 mm in the near field, where a whole aperture would leave radial streaks.
+// Our choice.
 constexpr double kReceiveFNumber = 2;
 // Breathing moves skin and lung past the probe by some mm per second, a resolution cell of 2 mm in
 // about half a second: our choice. Near field and lung of two real loops decorrelate in 0.1 s by 2

@@ -27,8 +27,9 @@ LateralTaps::LateralTaps(const SplatGrid& grid, int samples)
       range_(tapRange(*std::max_element(grid.deviations().begin(), grid.deviations().end()), 0,
                       grid.across().nodes(grid.across().coarser - 1))),
       pieces_(even_ ? 1 : static_cast<std::size_t>((samples_ + kPiece - 1) / kPiece)) {
+  const double most = *std::max_element(grid.deviations().begin(), grid.deviations().end());
   for (int line = 0; line < period_lines_; ++line)
-    even_ ? fitEven(grid.deviations().front(), grid.across().nodes(line))
+    even_ ? fitEven(most, grid.across().nodes(line))
           : fitPieces(grid.deviations(), grid.across().nodes(line));
 }
 
