@@ -151,8 +151,7 @@ NearFieldClutter::NearFieldClutter(const Scene& scene, bool harmonic, double win
   unlike_ = static_cast<float>(1 - random_.correlation({}, {1, 0}));
   const PointSpread spread(scene);
   const ScanGeometry geometry(scene.probe);
-  const double over_cell =
-      std::max(1.0, scene.artefacts.clutter_width_rad / kWidthAtHalf / spread.angle_rad);
+  const double over_cell = grainAngle(spread, scene.artefacts.clutter_width_rad) / spread.angle_rad;
   for (std::size_t k = 0; k < amplitudes_.size(); ++k) {
     const double part = spread.receiving(geometry.sampleDepth(static_cast<int>(k))) * over_cell;
     if (part >= 1) break;
@@ -201,15 +200,13 @@ void NearFieldClutter::addField(float scale, std::int64_t number, int line, floa
              split =
                  std::min(amplitudes_.size(), static_cast<std::size_t>(random_.samples()) - first);
   const auto addRun = [&](std::size_t begin, std::size_t end, const float* r, const float* i) {
-    for (std::size_t k = begin; k < end; ++k) {
+    for (std::size_t k = std::max(begin, closer_.size()); k < end; ++k) {
       real[k] += scale * amplitudes_[k] * r[k - begin];
       imaginary[k] += scale * amplitudes_[k] * i[k - begin];
     }
   };
-  const std::size_t widened = closer_.size(), near = std::min(widened, split);
-  addRun(near, split, re + first + near, im + first + near);
-  const std::size_t far = std::max(widened, split);
-  addRun(far, amplitudes_.size(), re + (far - split), im + (far - split));
+  addRun(0, split, re + first, im + first);
+  addRun(split, amplitudes_.size(), re, im);
 }
 
 // Between two lines of the plane, with the power of one of them: 1 / sqrt(1 - 2 y) to 1 %, with y =

@@ -7,7 +7,6 @@
 
 #include "core/hash_random.h"
 #include "scene/scan_geometry.h"
-#include "speckle/point_spread.h"
 
 namespace echocine {
 
@@ -77,14 +76,18 @@ double RandomPlane::correlation(PlaneShift a, PlaneShift b) const {
          along(a.samples, b.samples, samples_, grain_.axial_samples);
 }
 
+// A Gaussian of the amplitude with deviation s leaves intensities that correlate by
+// exp(-d^2 / 2 s^2).
+double grainAngle(const PointSpread& spread, double width_rad) {
+  return std::max(spread.angle_rad, width_rad / kWidthAtHalf);
+}
+
 Grain grainOf(const Scene& scene, double width_rad) {
   const Probe& probe = scene.probe;
   const PointSpread spread(scene);
-  // A Gaussian of the amplitude with deviation s leaves intensities that correlate by
-  // exp(-d^2 / 2 s^2).
-  const double angle_rad = std::max(spread.angle_rad, width_rad / kWidthAtHalf);
   Grain grain;
-  if (probe.lines > 1) grain.lateral_lines = ScanGeometry(probe).linesAcross(angle_rad);
+  if (probe.lines > 1)
+    grain.lateral_lines = ScanGeometry(probe).linesAcross(grainAngle(spread, width_rad));
   grain.axial_samples = spread.axial_m / probe.sampleSpacing();
   return grain;
 }

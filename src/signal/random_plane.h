@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "speckle/point_spread.h"
 
 namespace echocine {
 
@@ -35,6 +36,10 @@ class RandomPlane {
   Grain grain_;
   std::vector<float> real_, imaginary_;
 };
+
+// Lateral sigma of the grain over path length: that of a cell of speckle, unless width_rad is
+// wider.
+double grainAngle(const PointSpread& spread, double width_rad);
 
 // The grain of speckle, for a scene's probe and pulse. width_rad > 0 widens it across the lines:
 // full width at half maximum, in intensity.

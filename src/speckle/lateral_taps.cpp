@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 namespace echocine {
 
@@ -10,6 +11,10 @@ namespace {
 // Where taps change along the line, they are fitted at so many widths and interpolated.
 constexpr int kFits = 48;
 constexpr std::ptrdiff_t kSumChains = 4, kSumStep = 2 * kSumChains;  // samples
+
+double widest(std::span<const double> deviations) {
+  return *std::max_element(deviations.begin(), deviations.end());
+}
 
 Floats4 tapOf(const std::vector<double>& taps, std::size_t m) {
   const double h = taps[m], next = m + 1 < taps.size() ? taps[m + 1] : 0;
@@ -24,12 +29,11 @@ LateralTaps::LateralTaps(const SplatGrid& grid, int samples)
       period_rows_(grid.across().finer),
       even_(grid.even()),
       samples_((samples + kSumStep - 1) / kSumStep * kSumStep),
-      range_(tapRange(*std::max_element(grid.deviations().begin(), grid.deviations().end()), 0,
-                      grid.across().nodes(grid.across().coarser - 1))),
+      range_(
+          tapRange(widest(grid.deviations()), 0, grid.across().nodes(grid.across().coarser - 1))),
       pieces_(even_ ? 1 : static_cast<std::size_t>((samples_ + kPiece - 1) / kPiece)) {
-  const double most = *std::max_element(grid.deviations().begin(), grid.deviations().end());
   for (int line = 0; line < period_lines_; ++line)
-    even_ ? fitEven(most, grid.across().nodes(line))
+    even_ ? fitEven(widest(grid.deviations()), grid.across().nodes(line))
           : fitPieces(grid.deviations(), grid.across().nodes(line));
 }
 
@@ -90,16 +94,18 @@ class TapFits {
 void LateralTaps::fitPieces(const std::vector<double>& deviations, double phase) {
   const TapFits fits(deviations, phase);
   std::vector<double> taps;
-  for (std::ptrdiff_t from = 0; from < samples_; from += kPiece) {
-    const auto first = std::min(deviations.begin() + from, deviations.end() - 1);
-    const auto last = std::min(first + kPiece, deviations.end());
-    const TapRange range = tapRange(*std::max_element(first, last), phase, phase);
-    phases_.push_back({range, taps_.size()});
-    taps_.resize(taps_.size() + static_cast<std::size_t>(range.count * kPiece));
-    for (std::ptrdiff_t k = 0; k < kPiece; ++k) {
-      fits.between(*std::min(first + k, last - 1), range, taps);
+  constexpr auto kSamples = static_cast<std::size_t>(kPiece);
+  for (std::size_t from = 0; from < deviations.size(); from += kSamples) {
+    const auto piece =
+        std::span(deviations).subspan(from, std::min(kSamples, deviations.size() - from));
+    const TapRange range = tapRange(widest(piece), phase, phase);
+    const std::size_t first = taps_.size();
+    phases_.push_back({range, first});
+    taps_.resize(first + static_cast<std::size_t>(range.count) * kSamples);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+      fits.between(piece[std::min(k, piece.size() - 1)], range, taps);
       for (std::size_t m = 0; m < taps.size(); ++m)
-        taps_[phases_.back().first + m * kPiece + static_cast<std::size_t>(k)] = tapOf(taps, m);
+        taps_[first + m * kSamples + k] = tapOf(taps, m);
     }
   }
 }

@@ -10,9 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "plan/effect_plan.h"
 #include "scene/sampled_beam.h"
-#include "scene/scan_geometry.h"
 #include "signal/noise.h"
 #include "signal/profile_average.h"
 #include "speckle/beam_view.h"
