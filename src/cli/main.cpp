@@ -158,7 +158,8 @@ void* runCall(void* call) {
 }
 
 // On a stack of our own: the one that the system gives may be of any size (ulimit -s), and the
-// readers of hostile files recurse.
+// readers of hostile files recurse. Without it the program refuses: the system's stack counts as
+// addresses only as it grows, and growth beyond their limit (ulimit -v) is a segmentation fault.
 int runOnStack(Call call) {
   constexpr std::size_t kStackBytes = std::size_t{64} << 20;  // taken from memory only as used
   pthread_attr_t attributes;
@@ -166,7 +167,7 @@ int runOnStack(Call call) {
   const bool begun = ::pthread_attr_init(&attributes) == 0 &&
                      ::pthread_attr_setstacksize(&attributes, kStackBytes) == 0 &&
                      ::pthread_create(&thread, &attributes, runCall, &call) == 0;
-  if (!begun) return run(call.argc, call.argv);
+  if (!begun) return failed(kJobFailed, echocine::kOutOfMemory);
   ::pthread_join(thread, nullptr);
   return call.code;
 }

@@ -94,8 +94,8 @@ TEST_F(ShortOfMemory, AShortageThatLastsEndsInOneLine) {
 }
 
 // A limit on the address space, from the least that lets the program start to what a run needs.
-// Below that the system's loader refuses, which is no matter of the program's. ECHOCINE_LIMITS sets
-// how many more limits are drawn.
+// Below that the program cannot have its stack of 64 MiB, or the system's loader refuses (exit code
+// 127). ECHOCINE_LIMITS sets how many more limits are drawn.
 TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
   const auto limited = [](std::vector<std::string> arguments, long megabytes) {
     FaultyRun run{std::move(arguments)};
@@ -111,6 +111,17 @@ TEST_F(ShortOfMemory, EveryLimitOfAddressesEndsInOneLine) {
     const long middle = (starts + refused) / 2;
     (limited({"--version"}, middle).code == 0 ? starts : refused) = middle;
   }
+  constexpr long kStack = 64;
+  int without_stack = 0;
+  for (long megabytes = starts - kStack + 8; megabytes < starts; megabytes += 8) {
+    SCOPED_TRACE(megabytes);
+    fs::remove_all(out);
+    const Outcome outcome = limited(rendering(out, {}, 4).arguments, megabytes);
+    if (outcome.code == 127) continue;
+    EXPECT_TRUE(expectOrderlyEnd(outcome));
+    ++without_stack;
+  }
+  EXPECT_GT(without_stack, 0);
   int failed = 0, run_at_all = 0;
   for (long megabytes = starts + 2; run_at_all < 3 && megabytes < starts + 2000;
        megabytes += 1 + (megabytes - starts) / 6) {
