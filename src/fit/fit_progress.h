@@ -33,6 +33,7 @@ class FitProgress {
     };
     return one;
   }
+  double used() const { return used_; }  // units of all stages so far
   void finish() { tell(total_); }
 
  private:
@@ -45,6 +46,16 @@ class FitProgress {
   const Monitor& monitor_;
   double total_ = 0, used_ = 0, told_ = 0;
 };
+
+// Progress that goes on after so many units. The monitor must outlive the result.
+inline Monitor monitorAfter(double units, const Monitor& monitor) {
+  Monitor out = monitor;
+  const auto before = static_cast<std::size_t>(std::lround(units));
+  out.tell = [&monitor, before](const Progress& p) {
+    monitor.tell({p.task, p.done + before, p.total + before});
+  };
+  return out;
+}
 
 // Units of a descent with so many unknowns of each view: six rounds, two of them with mixed
 // derivatives.

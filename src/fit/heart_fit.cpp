@@ -9,11 +9,8 @@
 #include "core/error.h"
 #include "core/stop.h"
 #include "core/units.h"
-#include "echo/beat_length.h"
-#include "echo/persistence.h"
 #include "fit/cpu_seconds.h"
 #include "fit/fit_descent.h"
-#include "fit/fit_doubts.h"
 #include "fit/fit_input.h"
 #include "fit/fit_interval.h"
 #include "fit/fit_progress.h"
@@ -61,39 +58,6 @@ void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& option
   for (const FitLoop& one : loops) checkMoves(one);
 }
 
-std::vector<std::optional<double>> persistencesOf(const std::vector<FitLoop>& loops) {
-  std::vector<std::optional<double>> out;
-  for (const FitLoop& one : loops) out.push_back(echo::persistenceOf(one.loop));
-  return out;
-}
-
-// Only rendered loops show what averaging over time hides.
-bool ownLookFor(const std::vector<std::optional<double>>& persistence,
-                const HeartFitOptions& options) {
-  if (options.own_look || persistence.size() > 1) return options.ownLook(persistence.size());
-  return persistence.front().value_or(0) >= kMuchPersistence;
-}
-
-// The mean over loops that have one, within the models' range.
-std::optional<double> rateOf(const std::vector<FitLoop>& loops, HeartFit& fit) {
-  std::vector<double> rates;
-  for (const FitLoop& one : loops) {
-    const echo::BeatLength length = echo::beatOf(one.loop);
-    const double hz = one.loop.video.rate.hz;
-    if (length.frames > 0 && hz > 0) rates.push_back(60 * hz / length.frames);
-  }
-  if (rates.empty()) return std::nullopt;
-  const auto [low, high] = std::minmax_element(rates.begin(), rates.end());
-  constexpr double kMostApart = 1.15;
-  if (*high > kMostApart * *low)
-    fit.hints.push_back(fmt::format(
-        "heart rates of the loops are {:.0f} to {:.0f} bpm: are they of one heart?", *low, *high));
-  double sum = 0;
-  for (const double rate : rates) sum += rate / static_cast<double>(rates.size());
-  constexpr double kLeast_bpm = 40, kMost_bpm = 150;
-  return std::clamp(sum, kLeast_bpm, kMost_bpm);
-}
-
 std::vector<FitDescent> descentsFrom(const FitCost& cost, const std::vector<FitPlace>& starts,
                                      const FitStages& stages, FitProgress& progress) {
   std::vector<FitDescent> out;
@@ -130,6 +94,14 @@ void addViews(const std::vector<FitLoop>& loops, const FittedSides& sides, const
     view.report = fitReport(sides.modelAt(v, cost, best), discrepancy, loop, pose);
     fit.views.push_back(std::move(view));
   }
+}
+
+void addRejected(const std::vector<OwnSight>& rejected, HeartFit& fit) {
+  for (std::size_t v = 0; v < rejected.size(); ++v) fit.views[v].own_sight = rejected[v];
+  fit.assumed.push_back(
+      fmt::format("the loops do not look like the heart's own rendered loops (agreement {:.2f}, "
+                  "below {}): the look of these is not expected",
+                  *agreementOf(fit.views), kLeastAgreement));
 }
 
 // Without the expected look, which is that of the loop itself.
@@ -213,29 +185,24 @@ void resample(const FittedSides& sides, const FitCost& cost, const HeartFitOptio
   widenBy(sds, best.covariance);
 }
 
-}  // namespace
+// A fit, or none if it has to be repeated with the dials of plain fits: the loops do not look like
+// own loops.
+struct Attempt {
+  std::optional<HeartFit> fit;
+  std::vector<OwnSight> rejected{};  // by view, if they do not
+  double units = 0;                  // of progress
+};
 
-void checkFitViews(const std::vector<heart::View>& views) {
-  if (views.empty() || views.size() > kMostLoops)
-    throw SceneError(fmt::format("fit: has {} loops, accepted: 1 to {}", views.size(), kMostLoops));
-  for (std::size_t i = 0; i < views.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
-      if (views[i] == views[j])
-        throw SceneError(fmt::format("fit: {} is given twice", keyOf(views[i])));
-}
-
-HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& given,
-                  const Monitor& monitor) {
-  checkInput(loops, given);
-  const double since = cpuSeconds();
-  const std::vector<std::optional<double>> persistence = persistencesOf(loops);
-  HeartFitOptions options = given;
-  options.own_look = ownLookFor(persistence, given);
+// `rejected`: of an earlier attempt. Precondition: options.own_look has a value.
+Attempt attemptFit(const std::vector<FitLoop>& loops,
+                   const std::vector<std::optional<double>>& persistence,
+                   const HeartFitOptions& options, double least_agreement,
+                   std::vector<OwnSight> rejected, const Monitor& monitor) {
   HeartFit fit;
   fit.dials = options.dials;
   for (const FitLoop& one : loops)
     for (std::string& note : notesOf(one)) fit.hints.push_back(std::move(note));
-  if (const auto rate = rateOf(loops, fit); rate && !fit.dials.contains("hr"))
+  if (const auto rate = rateOf(loops, fit.hints); rate && !fit.dials.contains("hr"))
     fit.dials["hr"] = *rate;
   fit.fixed = fit.dials;
   fit.tilt_deg = options.tilt_deg;
@@ -264,14 +231,21 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& give
   });
   unlessStopped(monitor, fit, [&] {
     if (!options.ownLook(loops.size())) return;
-    fit.own_look =
-        polishWithOwnLooks(sides, viewsOf(loops), options, stages, progress, cost, descents);
+    OwnLookEnd end = polishWithOwnLooks(sides, viewsOf(loops), options, least_agreement, stages,
+                                        progress, cost, descents);
+    fit.stopped = end.stopped;
+    fit.own_look = !end.stopped && end.rejected.empty();
     fit.rendered_as = sides.rendered_as;
-    fit.stopped = !fit.own_look;
+    rejected = std::move(end.rejected);
   });
+  if (stages.unknowns < stages.all_unknowns && !rejected.empty())
+    return {{}, rejected, progress.used()};
   unstoppable([&] { keepPossible(cost, descents.front(), fit); });
   const FitPlace best = descents.front().best;
-  unstoppable([&] { addViews(loops, sides, cost, best, fit); });
+  unstoppable([&] {
+    addViews(loops, sides, cost, best, fit);
+    if (!rejected.empty()) addRejected(rejected, fit);
+  });
   unlessStopped(monitor, fit, [&] { addControls(loops, sides, cost, best, fit); });
   unlessStopped(monitor, fit, [&] {
     if (options.other_views) addOtherViews(sides, cost, best, monitor, fit);
@@ -287,8 +261,37 @@ HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& give
   });
   concludeFit(cost, descents, fit);
   if (!fit.stopped) progress.finish();
-  fit.cpu_ms = 1e3 * (cpuSeconds() - since);
-  return fit;
+  return {std::move(fit), rejected, progress.used()};
+}
+
+}  // namespace
+
+void checkFitViews(const std::vector<heart::View>& views) {
+  if (views.empty() || views.size() > kMostLoops)
+    throw SceneError(fmt::format("fit: has {} loops, accepted: 1 to {}", views.size(), kMostLoops));
+  for (std::size_t i = 0; i < views.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      if (views[i] == views[j])
+        throw SceneError(fmt::format("fit: {} is given twice", keyOf(views[i])));
+}
+
+HeartFit fitHeart(const std::vector<FitLoop>& loops, const HeartFitOptions& given,
+                  const Monitor& monitor) {
+  checkInput(loops, given);
+  const double since = cpuSeconds();
+  const std::vector<std::optional<double>> persistence = persistencesOf(loops);
+  HeartFitOptions options = given;
+  options.own_look = ownLookFor(persistence, given);
+  const double least = leastAgreement(persistence, given);
+  Attempt attempt = attemptFit(loops, persistence, options, least, {}, monitor);
+  if (!attempt.fit) {
+    options.own_look = false;
+    const double units = attempt.units;
+    attempt = attemptFit(loops, persistence, options, least, std::move(attempt.rejected),
+                         monitorAfter(units, monitor));
+  }
+  attempt.fit->cpu_ms = 1e3 * (cpuSeconds() - since);
+  return std::move(*attempt.fit);
 }
 
 }  // namespace echocine::fit

@@ -37,7 +37,9 @@ struct HeartFitOptions {
   bool own_loops = true;
   // Measures the look of found hearts in their own rendered loops, and polishes the fit with it
   // (Eqs. 20 to 22 and 24). Takes five times as long. None: with two or three loops,
-  // or one whose persistence is kMuchPersistence (fit_doubts.h) or more.
+  // or one whose persistence is kMuchPersistence (fit_doubts.h) or more. Unless it is true or a
+  // loop has this persistence, loops that do not look like own loops are fitted without
+  // (kLeastAgreement, own_look_fit.h).
   std::optional<bool> own_look{};
   // Last steps of the best heart, each with a look of its own. A step leaves up to 0.8 of an error
   // in wall thickness, and less of others: the look moves with the heart. Our choice.

@@ -20,11 +20,23 @@ struct Looked {
   std::string stage;
 };
 
+std::vector<OwnSight> sightsOf(const std::vector<ExpectedLook>& looks) {
+  std::vector<OwnSight> out;
+  for (const ExpectedLook& look : looks) out.push_back(look.sight().value_or(OwnSight{}));
+  return out;
+}
+
 // Mean of q c over the views.
 double meanShown(const std::vector<ExpectedLook>& looks) {
   double sum = 0;
-  for (const ExpectedLook& look : looks) sum += look.sight().value_or(OwnSight{}).both();
+  for (const OwnSight& sight : sightsOf(looks)) sum += sight.both();
   return sum / static_cast<double>(looks.size());
+}
+
+double agreementOf(const std::vector<OwnSight>& sights) {
+  double sum = 0;
+  for (const OwnSight& sight : sights) sum += sight.greys;
+  return sum / static_cast<double>(sights.size());
 }
 
 constexpr int kMeanSteps = 3;  // of the last steps; our choice
@@ -47,11 +59,15 @@ class LookRounds {
   // From now on.
   void searchSections() { plain_.searchSections(); }
 
-  // Measures the look of the descent's heart and polishes the descent with it. False if stopped.
-  bool add(Looked& one, std::string stage) {
-    FitDescent& descent = one.descent;
+  // Measures the look of the descent's heart. False if stopped.
+  bool look(Looked& one, std::string stage) {
     one.stage = std::move(stage);
-    if (!measure(one, 0)) return false;
+    return measure(one, 0);
+  }
+
+  // Polishes the descent with its look. False if stopped.
+  bool polish(Looked& one) {
+    FitDescent& descent = one.descent;
     const double units = stages_.polish(kFirstPolishRounds, plain_.freeOf(0).size());
     descent =
         polishFit(costOf(one.stage), std::move(descent), progress_.next(units), kFirstPolishRounds);
@@ -143,44 +159,61 @@ std::vector<FitDescent> hopefulOf(const FitCost& cost, std::vector<FitDescent> d
   return out;
 }
 
-bool addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
-              std::vector<Looked>& all) {
-  for (const FitDescent& descent : descents) {
-    all.push_back({descent, {}, {}});
-    if (!rounds.add(all.back(), fmt::format("own look {}", all.size()))) return false;
+// The descents with looks, in ascending order of J; none if the loops agree with none of them.
+OwnLookEnd addLooks(LookRounds& rounds, const std::vector<FitDescent>& descents,
+                    double least_agreement, std::vector<Looked>& all) {
+  constexpr bool kStopped = true;
+  std::vector<OwnSight> rejected;  // of the first, which is the lowest
+  for (std::size_t i = 0; i < descents.size(); ++i) {
+    Looked one{descents[i], {}, {}};
+    if (!rounds.look(one, fmt::format("own look {}", i + 1))) return {kStopped};
+    const std::vector<OwnSight> sights = sightsOf(one.looks);
+    if (agreementOf(sights) < least_agreement) {
+      if (rejected.empty()) rejected = sights;
+      continue;
+    }
+    if (!rounds.polish(one)) return {kStopped};
+    all.push_back(std::move(one));
   }
+  if (all.empty()) return {!kStopped, rejected};
   std::stable_sort(all.begin(), all.end(), [](const Looked& a, const Looked& b) {
     return a.descent.best.cost < b.descent.best.cost;
   });
-  const double before = all.front().descent.best.cost;
+  Looked& best = all.front();
+  const double before = best.descent.best.cost;
   rounds.searchSections();
-  if (!rounds.add(all.front(), "own look again") || !rounds.settle(all.front())) return false;
+  if (!rounds.look(best, "own look again") || !rounds.polish(best) || !rounds.settle(best))
+    return {kStopped};
   // J of the others is comparable with that of the first round.
-  const double change = all.front().descent.best.cost - before;
+  const double change = best.descent.best.cost - before;
   for (std::size_t i = 1; i < all.size(); ++i) all[i].descent.best.cost += change;
-  return true;
+  return {};
 }
 
 }  // namespace
 
-bool polishWithOwnLooks(FittedSides& sides, const std::vector<heart::View>& views,
-                        const HeartFitOptions& options, const FitStages& stages,
-                        FitProgress& progress, FitCost& cost, std::vector<FitDescent>& descents) {
+OwnLookEnd polishWithOwnLooks(FittedSides& sides, const std::vector<heart::View>& views,
+                              const HeartFitOptions& options, double least_agreement,
+                              const FitStages& stages, FitProgress& progress, FitCost& cost,
+                              std::vector<FitDescent>& descents) {
   const std::vector<ExpectedLook> before = sides.looks;
   LookRounds rounds(sides, views, options, stages, progress, cost);
   std::vector<FitDescent> ends = descents;
   FitPlace first = descents.front().best;
   makePossible(cost, first.at);
-  bool done = sides.chooseLook(cost, views, first, progress.next(stages.choice));
-  if (done) addMirrored(cost, stages, progress, ends);
+  OwnLookEnd end{true};
   std::vector<Looked> all;
-  done = done && !ends.back().stopped && addLooks(rounds, hopefulOf(cost, ends), all);
+  if (sides.chooseLook(cost, views, first, progress.next(stages.choice))) {
+    addMirrored(cost, stages, progress, ends);
+    if (!ends.back().stopped) end = addLooks(rounds, hopefulOf(cost, ends), least_agreement, all);
+  }
+  const bool done = !end.stopped && end.rejected.empty();
   sides.looks = done ? all.front().looks : before;
   cost = rounds.costOf(done ? all.front().stage : "descents");
-  if (!done) return false;
+  if (!done) return end;
   descents.clear();
   for (Looked& one : all) descents.push_back(std::move(one.descent));
-  return true;
+  return end;
 }
 
 }  // namespace echocine::fit
