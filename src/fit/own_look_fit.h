@@ -10,7 +10,8 @@
 namespace echocine::fit {
 
 // Least agreement, the mean of c (Eq. 21) over the views, with which a fit expects an own look. At
-// the ends of plain descents, planted hearts had 0.88 to 1, other people's 0.38 to 0.56. Our choice.
+// the ends of plain descents, planted hearts had 0.88 to 1, other people's 0.26 to 0.56. Our
+// choice.
 inline constexpr double kLeastAgreement = 0.7;
 
 struct OwnLookEnd {
