@@ -146,13 +146,19 @@ void widenByRivals(HeartFit& fit) {
 
 }  // namespace
 
-std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
+double agreementOf(const std::vector<OwnSight>& sights) {
   double sum = 0;
+  for (const OwnSight& sight : sights) sum += sight.greys;
+  return sum / static_cast<double>(sights.size());
+}
+
+std::optional<double> agreementOf(const std::vector<ViewFitted>& views) {
+  std::vector<OwnSight> sights;
   for (const ViewFitted& view : views) {
     if (!view.own_sight) return std::nullopt;
-    sum += view.own_sight->greys;
+    sights.push_back(*view.own_sight);
   }
-  return sum / static_cast<double>(views.size());
+  return agreementOf(sights);
 }
 
 double lagBeatsOf(const std::vector<ViewFitted>& views) {

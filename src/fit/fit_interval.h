@@ -18,7 +18,9 @@ inline constexpr double kUnmeasuredAgreement = 0.5;  // our choice: that of the 
 ModelError modelErrorOf(std::size_t views, bool own_look, std::optional<double> agreement,
                         double lag_beats = 0);
 
-// a of Eq. 23; none unless it was measured in all views.
+// a of Eq. 23 of all views.
+double agreementOf(const std::vector<OwnSight>& sights);
+// The same; none unless it was measured in all views.
 std::optional<double> agreementOf(const std::vector<ViewFitted>& views);
 
 // l of Eq. 23.

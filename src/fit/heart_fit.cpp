@@ -101,7 +101,7 @@ void addRejected(const std::vector<OwnSight>& rejected, HeartFit& fit) {
   fit.assumed.push_back(
       fmt::format("the loops do not look like the heart's own rendered loops (agreement {:.2f}, "
                   "below {}): the look of these is not expected",
-                  *agreementOf(fit.views), kLeastAgreement));
+                  agreementOf(rejected), kLeastAgreement));
 }
 
 // Without the expected look, which is that of the loop itself.
@@ -189,8 +189,9 @@ void resample(const FittedSides& sides, const FitCost& cost, const HeartFitOptio
 // own loops.
 struct Attempt {
   std::optional<HeartFit> fit;
-  std::vector<OwnSight> rejected{};  // by view, if they do not
-  double units = 0;                  // of progress
+  // Without a fit: by view, and units of progress.
+  std::vector<OwnSight> rejected{};
+  double units = 0;
 };
 
 // `rejected`: of an earlier attempt. Precondition: options.own_look has a value.
@@ -261,7 +262,7 @@ Attempt attemptFit(const std::vector<FitLoop>& loops,
   });
   concludeFit(cost, descents, fit);
   if (!fit.stopped) progress.finish();
-  return {std::move(fit), rejected, progress.used()};
+  return {std::move(fit)};
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "fit/fit_interval.h"
 #include "fit/fit_polish.h"
 #include "fit/secant_covariance.h"
 
@@ -31,12 +32,6 @@ double meanShown(const std::vector<ExpectedLook>& looks) {
   double sum = 0;
   for (const OwnSight& sight : sightsOf(looks)) sum += sight.both();
   return sum / static_cast<double>(looks.size());
-}
-
-double agreementOf(const std::vector<OwnSight>& sights) {
-  double sum = 0;
-  for (const OwnSight& sight : sights) sum += sight.greys;
-  return sum / static_cast<double>(sights.size());
 }
 
 constexpr int kMeanSteps = 3;  // of the last steps; our choice

@@ -119,7 +119,7 @@ TEST(HeartFit, APlantedHeartIsFound) {
 }
 
 // Other shapes deviate from the labels of the found heart in other places than its own loops do.
-// Such loops are fitted without the own look, as if it had not been asked for.
+// Such loops are fitted without the own look.
 TEST(HeartFit, AHeartOutsideTheFamilyDisagreesWithOwnLoops) {
   if (!realHeartsThere()) GTEST_SKIP() << "no real hearts beside the project";
   withThreads(2, [] {
