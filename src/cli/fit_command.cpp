@@ -57,7 +57,7 @@ FitCommand::FitCommand(CLI::App& app) {
       "fit", "Fit a beating heart with an error bar to one to three echo videos");
   command->add_option("files", files_,
                       "Loops of unknown view: each view is ranked, and refused if it is unclear; "
-                      "2 minutes of one core each");
+                      "36 s of one core each");
   command
       ->add_option("--view", views_,
                    "A loop and its view, VIEW=FILE: a video, DICOM, folder of frames or of a "

@@ -50,6 +50,8 @@ std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& o
   all.put(options.descents);
   all.put(options.own_loops);
   all.put(options.ownLook(loops.size()));
+  all.put(options.own_look.has_value());
+  all.put(options.settling_steps);
   all.put(options.resamples);
   all.put(options.other_views);
   for (const FitLoop& one : loops) {
@@ -145,7 +147,7 @@ FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& o
     kept.journal = std::make_shared<FitJournal>(*folder / kJournal, digestOf(loops, options));
   }
   out.fit = fitHeart(loops, kept, monitor);
-  out.fit.assumed = assumed;
+  out.fit.assumed.insert(out.fit.assumed.begin(), assumed.begin(), assumed.end());
   if (!folder) return out;
   // A stopped fit keeps its best heart.
   unstoppable([&] {

@@ -38,7 +38,9 @@ std::vector<RegionFinding> regionsOfFit(const PlantedHeart& heart) {
   HeartFitOptions options;
   options.other_views = false;
   const HeartFit fit = fitHeart(heart.given(), options);
-  fmt::print("EF {:.3f}, EDV {:.1f} mL, {:.0f} s\n", fit.dials.at("ef"), fit.dials.at("edv"),
+  fmt::print("EF {:.3f}, EDV {:.1f} mL, {} own look, agreement {}, {:.0f} s\n", fit.dials.at("ef"),
+             fit.dials.at("edv"), fit.own_look ? "with" : "without",
+             fit.agreement ? fmt::format("{:.2f}", *fit.agreement) : "not measured",
              1e-3 * fit.cpu_ms);
   std::vector<RegionFinding> all;
   for (const ViewFitted& view : fit.views)

@@ -107,7 +107,8 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
   }
   fmt::print("\n");
   for (const std::string& hint : fit.hints) fmt::print("  {}\n", hint);
-  fmt::print("  look {}, agreement {:.2f}\n", nameOf(fit.rendered_as), fit.agreement.value_or(-1));
+  fmt::print("  J {:.1f}, look {}, agreement {:.2f}\n", fit.cost, nameOf(fit.rendered_as),
+             fit.agreement.value_or(-1));
   for (const ViewFitted& view : fit.views) {
     const OwnSight sight = view.own_sight.value_or(OwnSight{});
     fmt::print(
@@ -128,12 +129,12 @@ void tellFit(int number, const PlantedHeart& heart, const HeartFitOptions& optio
 
 constexpr const char* kUsage =
     "fit_table VIEWS HEARTS|foreign [first=N] [degrees=D] [dials=A,B] [look=LOOK] [own_look=0] "
-    "[own_loops=0] [sections=1] [beat=0]";
+    "[own_loops=0] [sections=1] [beat=0] [descents=N]";
 
 int run(int argc, char** argv) {
   std::map<std::string, std::string> given{
-      {"first", "0"},   {"degrees", ""},    {"dials", ""},     {"look", "scanner"},
-      {"own_look", ""}, {"own_loops", "1"}, {"sections", "0"}, {"beat", "1"}};
+      {"first", "0"},     {"degrees", ""},   {"dials", ""}, {"look", "scanner"}, {"own_look", ""},
+      {"own_loops", "1"}, {"sections", "0"}, {"beat", "1"}, {"descents", "2"}};
   bool known = argc >= 3;
   for (int i = 3; i < argc; ++i) {
     const std::vector<std::string> parts = splitOption(argv[i], '=');
@@ -154,6 +155,7 @@ int run(int argc, char** argv) {
   if (!given["dials"].empty()) options.searched = splitOption(given["dials"], ',');
   if (!given["own_look"].empty()) options.own_look = given["own_look"] != "0";
   options.own_loops = given["own_loops"] != "0";
+  options.descents = std::atoi(given["descents"].c_str());
   Errors ef{"EF"}, edv{"EDV, relative"}, gls{"GLS"};
   withThreads(0, [&] {
     if (foreign) {

@@ -91,7 +91,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
 
     Args:
         loops: view -> a loop that ``compare`` reads, such as ``{"a4c": "a4c.dcm"}``.
-            Or a list of them: their views are ranked, 2 minutes of one core each, and refused if they are unclear.
+            Or a list of them: their views are ranked, 36 s of one core each, and refused if they are unclear.
         folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
@@ -104,7 +104,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
         starts: hearts that are compared first.
         descents: searches, from the best of them.
         own_look: measures in rendered loops of the found heart where its edges and which grey levels are seen, and polishes the fit with them.
-            Takes five times as long. None: with two or three loops.
+            Takes five times as long. None: with two or three loops, or one with a persistence of 0.4 or more.
         own_loops: fits the found heart's own rendered loops too, for regions and the error of such a fit.
         resamples: fits again without each of so many blocks of the beat, 4 to 10: intervals include their spread; 0: none.
         cache: keeps computed hearts in the user's cache folder and reads them there; a path: in this folder; False: does neither.
