@@ -15,7 +15,7 @@ namespace echocine {
 
 namespace {
 
-// Our choice: no ridges at the rings of valves, full height from a centimetre on, few on the left
+// Our choice: no ridges at the rings of valves, full height from 16 mm on, few on the left
 // side of the septum.
 constexpr float kNoneWithin_m = 6e-3f, kAllBeyond_m = 16e-3f;
 constexpr float kOnSurface_m = 0.3e-3f;  // distance of shared vertices

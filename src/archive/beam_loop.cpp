@@ -44,10 +44,13 @@ std::vector<float> rowsFirst(std::span<const float> planes, const BeamLoop& loop
 
 std::vector<float> ecgOf(const Scene& scene, const CardiacClock& clock) {
   std::vector<float> ecg;
-  // Beyond the loop the first and the last beat go on.
-  const double end_s = (clock.frameCount() - 0.5) / scene.acquisition.frame_rate_hz;
+  // Beyond the loop the first and the last beat go on. The last instant is within the last frame's
+  // interval: at its end a next beat may begin.
+  const double rate_hz = scene.acquisition.frame_rate_hz, end_s = clock.frameCount() / rate_hz,
+               last_s = (clock.frameCount() - 0.5) / rate_hz;
   for (int i = 0;; ++i) {
-    const double time_s = i / kEcgRate_hz - kEcgMargin_s, inside_s = std::clamp(time_s, 0.0, end_s);
+    const double time_s = i / kEcgRate_hz - kEcgMargin_s,
+                 inside_s = std::clamp(time_s, 0.0, last_s);
     if (time_s > end_s + kEcgMargin_s) return ecg;
     const FrameTime at = clock.atTime(inside_s);
     ecg.push_back(

@@ -23,6 +23,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* kCatalogue = "croissant.json";
 constexpr std::size_t kMostCatalogue = std::size_t{256} << 20;
 constexpr double kLeastLimit_m_s = 0.01;  // of a loop that stands still
 
@@ -127,18 +128,26 @@ Json rowOf(const std::vector<ZarrArray>& arrays, const std::string& exam,
   return row;
 }
 
+// The catalogue in the file, or one without recordings.
+Json catalogueIn(const fs::path& file) {
+  if (!fs::exists(file))
+    return {{"@type", "sc:Dataset"}, {"name", "EchoCine"}, {"recordSet", Json::array()}};
+  Json catalogue = Json::parse(readTextFile(file, kMostCatalogue), nullptr, false);
+  if (!catalogue.is_object() || !catalogue.contains("recordSet") ||
+      !catalogue["recordSet"].is_array())
+    throw SceneError(fmt::format("{}: is not a catalogue of recordings", file.string()));
+  return catalogue;
+}
+
+bool hasText(const Json& object, const char* key, const std::string& text) {
+  return object.is_object() && object.contains(key) && object[key] == text;
+}
+
 // The catalogue with the row in place of an earlier one.
-Json catalogueWith(const Json& row, const fs::path& file) {
-  Json catalogue{{"@type", "sc:Dataset"}, {"name", "EchoCine"}, {"recordSet", Json::array()}};
-  if (fs::exists(file)) {
-    catalogue = Json::parse(readTextFile(file, kMostCatalogue), nullptr, false);
-    if (!catalogue.is_object() || !catalogue.contains("recordSet") ||
-        !catalogue["recordSet"].is_array())
-      throw SceneError(fmt::format("{}: is not a catalogue of recordings", file.string()));
-  }
+Json with(const Json& row, Json catalogue) {
   Json* records = nullptr;
   for (Json& set : catalogue["recordSet"])
-    if (set.is_object() && set.value("@id", "") == "recordings") records = &set;
+    if (hasText(set, "@id", "recordings")) records = &set;
   if (records == nullptr) {
     catalogue["recordSet"].push_back({{"@id", "recordings"}, {"data", Json::array()}});
     records = &catalogue["recordSet"].back();
@@ -146,8 +155,7 @@ Json catalogueWith(const Json& row, const fs::path& file) {
   Json rows = Json::array();
   if (records->contains("data") && (*records)["data"].is_array())
     for (const Json& other : (*records)["data"])
-      if (!other.is_object() ||
-          other.value("recordings/zarr_path", "") != row["recordings/zarr_path"].get<std::string>())
+      if (!hasText(other, "recordings/zarr_path", row["recordings/zarr_path"]))
         rows.push_back(other);
   rows.push_back(row);
   (*records)["data"] = rows;
@@ -166,12 +174,18 @@ void place(const fs::path& part, const fs::path& store) {
 
 }  // namespace
 
+void checkEchoXFlow(const Scene& scene, const fs::path& root, const std::string& exam,
+                    const std::string& recording) {
+  if (!exam.empty()) refuseName("--exam", exam);
+  if (!recording.empty()) refuseName("--recording", recording);
+  if (scene.probe.kind != ProbeKind::phased)
+    throw SceneError("EchoXFlow stores sectors of phased probes; use the layout zea");
+  catalogueIn(root / kCatalogue);
+}
+
 void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::string& exam,
                     const std::string& recording) {
-  refuseName("--exam", exam);
-  refuseName("--recording", recording);
-  if (loop.scene.probe.kind != ProbeKind::phased)
-    throw SceneError("EchoXFlow stores sectors of phased probes; use the layout zea");
+  checkEchoXFlow(loop.scene, root, exam, recording);
   const auto t = static_cast<std::size_t>(loop.frames), z = static_cast<std::size_t>(loop.samples),
              x = static_cast<std::size_t>(loop.lines);
   const std::vector<std::uint8_t> greys = bytesOfGreys(loop);
@@ -204,11 +218,11 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
   writeZarr(part, {{"recording_manifest", manifestOf(loop, limit, role)}}, arrays);
   unstoppable([&] {
     syncAllOf(part);
+    const std::string text = with(rowOf(arrays, exam, recording, medianStep(loop.times_s)),
+                                  catalogueIn(root / kCatalogue))
+                                 .dump(1);
     place(part, store);
-    const Json catalogue = catalogueWith(rowOf(arrays, exam, recording, medianStep(loop.times_s)),
-                                         root / "croissant.json");
-    const std::string text = catalogue.dump(1);
-    writeFileWhole(root / "croissant.json", std::as_bytes(std::span(text)));
+    writeFileWhole(root / kCatalogue, std::as_bytes(std::span(text)));
   });
 }
 

@@ -9,6 +9,11 @@
 
 namespace echocine {
 
+// Throws SceneError for what writeEchoXFlow() refuses, before a loop is rendered. An empty name is
+// one that follows from the loop.
+void checkEchoXFlow(const Scene& scene, const std::filesystem::path& root, const std::string& exam,
+                    const std::string& recording);
+
 // Writes ROOT/EXAM/RECORDING.zarr and its row in ROOT/croissant.json, in which rows of other
 // recordings stay. An existing recording of the same names is replaced. Names consist of letters,
 // digits, "-" and "_". Throws SceneError for other names, a linear or curvilinear probe, and a

@@ -43,6 +43,7 @@ ArchiveCommand::ArchiveCommand(CLI::App& app) {
 
 int ArchiveCommand::run() {
   const Scene scene = readScene(scene_file_);
+  if (layout_ == "echoxflow") checkEchoXFlow(scene, output_, exam_, recording_);
   ProgressLine progress(quiet_);
   const BeamLoop loop = makeBeamLoop(scene, threads_, progress.monitor());
   progress.finish();

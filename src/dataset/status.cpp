@@ -2,12 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <nlohmann/json.hpp>
+
 #include "core/error.h"
+#include "core/file.h"
 #include "dataset/folder_spec.h"
 #include "dataset/record.h"
 #include "dataset/work_folder.h"
 
 namespace echocine::dataset {
+
+namespace {
+
+// A dataset that has grown keeps the tables of the earlier spec until it is merged again.
+bool hasTablesOf(const Spec& spec, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "dataset.json";
+  std::error_code failed;
+  if (!std::filesystem::is_regular_file(file, failed)) return false;
+  constexpr std::size_t kMostTableBytes = std::size_t{256} << 20;
+  const auto json = nlohmann::json::parse(readTextFile(file, kMostTableBytes), nullptr, false);
+  return json.is_object() && json.contains("spec_sha256") && json["spec_sha256"] == spec.digest;
+}
+
+}  // namespace
 
 Status statusOf(const std::filesystem::path& folder) {
   std::error_code failed;
@@ -34,7 +51,7 @@ Status statusOf(const std::filesystem::path& folder) {
     if (status.first_failure.empty())
       status.first_failure = one.record->at("failed").get<std::string>();
   }
-  status.merged = std::filesystem::exists(folder / "dataset.json", failed);
+  status.merged = hasTablesOf(spec, folder);
   status.running = work.runningTasks();
   return status;
 }

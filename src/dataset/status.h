@@ -12,7 +12,7 @@ struct Status {
   int hearts = 0;                    // of the spec
   int finished = 0, failed = 0;      // by their records; files are compared by size
   int damaged = 0;                   // records or files that are not as they were written
-  bool merged = false;               // tables exist
+  bool merged = false;               // the tables are those of the spec
   std::vector<std::string> running;  // tasks that hold their lock, such as "task_3_of_8"
   std::string first_failure;
 };

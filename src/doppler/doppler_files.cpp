@@ -13,6 +13,7 @@
 #include "core/folder_lock.h"
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "core/part_file.h"
 #include "core/seal.h"
 #include "core/stop.h"
 #include "core/units.h"
@@ -103,12 +104,15 @@ void removeFrames(const std::filesystem::path& folder) {
       std::filesystem::remove(entry.path(), ignored);
 }
 
-// An unfinished folder has no doppler.json.
+// An unfinished folder has no doppler.json, and no spectrum of an earlier run.
 void prepare(const std::filesystem::path& folder, std::optional<FolderLock>& lock) {
   makeFolder(folder);
   lock.emplace(folder);
   std::error_code ignored;
-  std::filesystem::remove(folder / "doppler.json", ignored);
+  for (const char* name : {"doppler.json", "spectrum.exr", "spectrum.png", "spectrum.csv"}) {
+    std::filesystem::remove(folder / name, ignored);
+    removePartsOf(folder / name);  // of a run that was killed here
+  }
   makeFolder(folder / "velocity");
   removeFrames(folder / "velocity");
 }
@@ -260,6 +264,7 @@ DopplerSummary writeDoppler(const Scene& given, const DopplerOptions& options,
   DopplerSummary summary;
   withThreads(options.threads, [&] {
     const Simulator simulator(scene);
+    if (options.spectrum) checkSpectrum(simulator, options.request, *options.spectrum);
     std::optional<FolderLock> lock;
     if (!options.folder.empty()) prepare(options.folder, lock);
     const std::optional<double> white = simulator.referenceIntensity(monitor, {});

@@ -61,6 +61,16 @@ Volume volumeAt(const Simulator& simulator, const SpectrumRequest& request, Spec
   return volume;
 }
 
+std::size_t pulseCount(const Simulator& simulator, double prf_hz) {
+  const double duration_s =
+      simulator.cardiacClock().frameCount() / simulator.scene().acquisition.frame_rate_hz;
+  const double wanted = std::max(1.0, std::floor(duration_s * prf_hz));
+  if (wanted > kMostSpectrumPulses)
+    throw SceneError(fmt::format("--prf: {:g} Hz gives {:.0f} pulses, accepted: at most {:.0f}",
+                                 prf_hz, wanted, kMostSpectrumPulses));
+  return static_cast<std::size_t>(wanted);
+}
+
 // z_k(t_n): one vector per pulse.
 using Pulses = std::vector<std::vector<std::complex<double>>>;
 
@@ -68,12 +78,7 @@ Pulses receive(const Simulator& simulator, double prf_hz, const Volume& volume, 
                const Monitor& monitor) {
   const Scene& scene = simulator.scene();
   const CardiacClock& clock = simulator.cardiacClock();
-  const double duration_s = clock.frameCount() / scene.acquisition.frame_rate_hz;
-  const double wanted = std::max(1.0, std::floor(duration_s * prf_hz));
-  if (wanted > kMostSpectrumPulses)
-    throw SceneError(fmt::format("--prf: {:g} Hz gives {:.0f} pulses, accepted: at most {:.0f}",
-                                 prf_hz, wanted, kMostSpectrumPulses));
-  const auto count = static_cast<std::size_t>(wanted);
+  const std::size_t count = pulseCount(simulator, prf_hz);
   const auto first =
       static_cast<std::size_t>(volume.line) * static_cast<std::size_t>(scene.probe.samples);
   Pulses pulses(count);
@@ -96,19 +101,23 @@ Pulses receive(const Simulator& simulator, double prf_hz, const Volume& volume, 
   return pulses;
 }
 
-// The pulses of one column.
+// The pulses of one column: `first` to `end`, of `length` from `begin` on, which may lie before the
+// loop or end after it.
 struct Span {
+  std::ptrdiff_t begin;
+  int length;
   std::size_t first, end;
 };
 
 // (D5).
-void addColumn(const Pulses& pulses, const Span& window, int length, Spectrum& spectrum) {
+void addColumn(const Pulses& pulses, const Span& window, Spectrum& spectrum) {
   std::vector<double> powers(kBins, 0.0);
   const std::size_t samples = pulses.front().size();
   double squares = 0;
   std::vector<double> taper;
   for (std::size_t n = window.first; n < window.end; ++n) {
-    const double at = (static_cast<double>(n - window.first) + 0.5) / length;
+    const double at =
+        (static_cast<double>(static_cast<std::ptrdiff_t>(n) - window.begin) + 0.5) / window.length;
     taper.push_back(0.5 - 0.5 * std::cos(2 * std::numbers::pi * at));
     squares += taper.back() * taper.back();
   }
@@ -196,12 +205,21 @@ Scene spectrumScene(Scene scene, const DopplerRequest& request, const SpectrumRe
            millimetresFromMetres(scene.probe.max_depth_m), "mm");
   scene = dopplerScene(std::move(scene), request);
   if (!spectrum.at.through) return scene;
-  for (const Role role : {Role::lv_cavity, Role::lv_wall})
+  std::vector<Role> roles{Role::lv_cavity, Role::lv_wall};
+  if (spectrum.at.through == MModeTarget::mitral_tips) roles.push_back(Role::mitral_valve);
+  for (const Role role : roles)
     if (!structureOf(scene, role))
       throw SceneError(fmt::format("--through {}: no structure has the role {}; set role",
                                    nameOf(*spectrum.at.through), nameOf(role)));
   scene.truth.contours = scene.truth.function = true;
   return scene;
+}
+
+void checkSpectrum(const Simulator& simulator, const DopplerRequest& request,
+                   const SpectrumRequest& spectrum) {
+  Spectrum unused;
+  volumeAt(simulator, spectrum, unused);
+  pulseCount(simulator, request.prf_hz);
 }
 
 Spectrum makeSpectrum(const Simulator& simulator, const DopplerRequest& request,
@@ -220,10 +238,10 @@ Spectrum makeSpectrum(const Simulator& simulator, const DopplerRequest& request,
     const std::ptrdiff_t middle = std::lround(time_s * request.prf_hz);
     if (middle >= count) break;
     const std::ptrdiff_t first = middle - length / 2;
-    const Span window{static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0)),
+    const Span window{first, length, static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0)),
                       static_cast<std::size_t>(std::min(first + length, count))};
     spectrum.times.push_back(instantOf(simulator.cardiacClock(), scene, time_s));
-    addColumn(pulses, window, length, spectrum);
+    addColumn(pulses, window, spectrum);
     checkpoint();
   }
   spectrum.columns = static_cast<int>(spectrum.times.size());

@@ -1,11 +1,13 @@
 #pragma once
 // Spectral tissue Doppler at a place: velocities of one sample volume over time.
 //
-//   S(v, t) = sum over k of |sum over n of h_n z_k(t_n) exp(-j pi (v / v_N) n)|^2 / sum h_n^2 (D5)
+//   S(v, t) = 1/K sum over k of |sum over n of h_n z_k(t_n) exp(-j pi (v / v_N) n)|^2 / sum h_n^2
+//                                                                                             (D5)
 //
 // Symbols: z_k(t_n) field of sample k of the sample volume at the pulses t_n about t, PRF apart;
-// h Hann window; v velocity, positive towards the probe; v_N Nyquist velocity. Tissue that moves at
-// v turns the phase of z by pi v / v_N from pulse to pulse. Velocities beyond v_N wrap round.
+// K number of these samples; h Hann window about t, also where the loop ends within it; v velocity,
+// positive towards the probe; v_N Nyquist velocity. Tissue that moves at v turns the phase of z by
+// pi v / v_N from pulse to pulse. Velocities beyond v_N wrap round.
 
 #include <optional>
 #include <vector>
@@ -47,8 +49,12 @@ struct Spectrum {
 // of the heart is requested. Throws SceneError for values out of range.
 Scene spectrumScene(Scene scene, const DopplerRequest& request, const SpectrumRequest& spectrum);
 
-// Precondition: the simulator is of spectrumScene(). Throws SceneError for a place outside the
-// sector or one that the plane does not show; JobError if the monitor stops it.
+// Throws SceneError for a place outside the sector or one that the plane does not show, and for too
+// many pulses. Precondition: the simulator is of spectrumScene().
+void checkSpectrum(const Simulator& simulator, const DopplerRequest& request,
+                   const SpectrumRequest& spectrum);
+
+// Throws like checkSpectrum(); JobError if the monitor stops it.
 Spectrum makeSpectrum(const Simulator& simulator, const DopplerRequest& request,
                       const SpectrumRequest& spectrum, double white, const Monitor& monitor);
 

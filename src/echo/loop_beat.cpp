@@ -42,7 +42,7 @@ BeatLength beatOf(const EchoLoop& loop) {
     known(loop.frames_per_beat, "manifest");
   else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
     known(beatOfRWaves(v.r_waves_s, beat.frames / v.rate.hz).mean * v.rate.hz, "R waves");
-  else if (loop.ecg && loop.ecg->beat_frames > 0 && v.heart_rate_source != "--heart-rate")
+  else if (loop.ecg && loop.ecg->beat_frames > 0 && !v.heart_rate_source.starts_with("--"))
     beat = {beatOfRWaves(loop.ecg->r_frames, beat.frames).median, loop.ecg->confidence,
             loop.beat_anchor, beat.dissimilarity};
   else if (v.heart_rate_bpm && v.rate.trusted)

@@ -216,8 +216,9 @@ std::string LiveSession::textFor(const Subject& subject, const std::string& text
 // A scene for each pose at which the probe came to rest. The folder may hold those of earlier
 // sessions.
 void LiveSession::record(const Asked& asked) {
-  if (record_folder_.empty() || asked.text == recorded_) return;
-  recorded_ = asked.text;
+  // Hearts of other dials may have the same text.
+  const std::string pose = asked.text + '\n' + asked.subject->change.name();
+  if (record_folder_.empty() || pose == recorded_) return;
   // Equal names are equal hearts, also in another session.
   const std::string all = own_->scene.text() + asked.subject->change.name();
   const std::string heart = digestOfBytes(std::as_bytes(std::span(all))).substr(0, 16);
@@ -225,6 +226,7 @@ void LiveSession::record(const Asked& asked) {
   const auto bytes = std::as_bytes(std::span(text));
   while (!writeFileOnce(record_folder_ / fmt::format("pose_{:05}.toml", records_++), bytes)) {
   }
+  recorded_ = pose;
 }
 
 }  // namespace echocine::live

@@ -69,7 +69,7 @@ class LiveSession {
   std::vector<std::string> warnings_;
   std::string page_;
   std::filesystem::path record_folder_;  // empty: no record
-  std::string recorded_;                 // the last recorded text
+  std::string recorded_;                 // the last recorded text and heart
   int records_ = 0;                      // numbers of poses that are taken
 };
 

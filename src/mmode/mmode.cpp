@@ -118,6 +118,16 @@ int chosenLine(const Simulator& simulator, const MModeRequest& request) {
   return lineThrough(probe, *at, *request.through);
 }
 
+int columnCount(const Simulator& simulator, const MModeRequest& request) {
+  const double duration_s =
+      simulator.cardiacClock().frameCount() / simulator.scene().acquisition.frame_rate_hz;
+  const double count = std::max(1.0, std::round(duration_s * request.rate_hz));
+  if (count > kMostColumns)
+    throw SceneError(fmt::format("--rate: {:g} Hz gives {:.0f} columns, accepted: at most {}",
+                                 request.rate_hz, count, kMostColumns));
+  return static_cast<int>(count);
+}
+
 // Columns from the first to the closure of the aortic valve in its beat, at least one.
 int systolicColumns(const MMode& mode, const Simulator& simulator) {
   const std::optional<ValveTimes>& valves = simulator.truth()->valves();
@@ -164,6 +174,8 @@ Scene mmodeScene(Scene scene, const MModeRequest& request) {
   if (request.through)
     for (const Role role : {Role::lv_cavity, Role::lv_wall})
       refuseWithout(scene, role, *request.through);
+  if (request.through == MModeTarget::mitral_tips)
+    refuseWithout(scene, Role::mitral_valve, *request.through);
   scene.acquisition.rolling = false;
   scene.artefacts.persistence = 0;
   scene.output.channels.clear();
@@ -173,6 +185,11 @@ Scene mmodeScene(Scene scene, const MModeRequest& request) {
   scene.truth.contours = true;
   scene.truth.function = request.through.has_value();
   return scene;
+}
+
+void checkMMode(const Simulator& simulator, const MModeRequest& request) {
+  chosenLine(simulator, request);
+  columnCount(simulator, request);
 }
 
 MMode makeMMode(const Simulator& simulator, const MModeRequest& request, const Monitor& monitor) {
@@ -189,12 +206,7 @@ MMode makeMMode(const Simulator& simulator, const MModeRequest& request, const M
   mode.white = *white;
 
   const CardiacClock& clock = simulator.cardiacClock();
-  const double duration_s = clock.frameCount() / scene.acquisition.frame_rate_hz;
-  const double count = std::max(1.0, std::round(duration_s * request.rate_hz));
-  if (count > kMostColumns)
-    throw SceneError(fmt::format("--rate: {:g} Hz gives {:.0f} columns, accepted: at most {}",
-                                 request.rate_hz, count, kMostColumns));
-  mode.columns = static_cast<int>(count);
+  mode.columns = columnCount(simulator, request);
   for (int t = 0; t < mode.columns; ++t)
     mode.times.push_back(instantOf(clock, scene, t / request.rate_hz));
 

@@ -57,10 +57,13 @@ struct MMode {
 // required structure has no role.
 Scene mmodeScene(Scene scene, const MModeRequest& request);
 
+// Throws SceneError as lineAt(), lineThrough(), if the plane does not cut the target, and for too
+// many columns. Precondition: the simulator is of mmodeScene().
+void checkMMode(const Simulator& simulator, const MModeRequest& request);
+
 // The M-mode of the loop, one column every 1 / rate seconds from 0 s. Its columns equal the line of
 // still frames at their instants. Precondition: the simulator is of mmodeScene(). Uses the threads
-// of the enclosing withThreads(). Throws SceneError as lineAt(), lineThrough(), or if the plane
-// does not cut the target; JobError if the monitor stops it.
+// of the enclosing withThreads(). Throws like checkMMode(); JobError if the monitor stops it.
 MMode makeMMode(const Simulator& simulator, const MModeRequest& request,
                 const Monitor& monitor = {});
 

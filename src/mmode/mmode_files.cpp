@@ -10,6 +10,7 @@
 #include "core/folder_lock.h"
 #include "core/hash.h"
 #include "core/parallel.h"
+#include "core/part_file.h"
 #include "core/seal.h"
 #include "core/stop.h"
 #include "core/units.h"
@@ -115,10 +116,15 @@ MMode writeMMode(const Scene& given, const MModeOptions& options, const Monitor&
   MMode mode;
   withThreads(options.threads, [&] {
     const Simulator simulator(scene);
+    checkMMode(simulator, options.request);
     makeFolder(options.folder);
     const FolderLock lock(options.folder);
     std::error_code ignored;
-    std::filesystem::remove(options.folder / "mmode.json", ignored);
+    // A run without a ring as target replaces the other files, but writes no ring.csv.
+    for (const char* name : {"mmode.json", "ring.csv"})
+      std::filesystem::remove(options.folder / name, ignored);
+    for (const char* name : {"mmode.json", "mmode.exr", "mmode.png", "borders.csv", "ring.csv"})
+      removePartsOf(options.folder / name);  // of a run that was killed here
     mode = makeMMode(simulator, options.request, monitor);
     unstoppable([&] {
       Json files;

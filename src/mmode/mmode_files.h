@@ -21,8 +21,8 @@ struct MModeOptions {
 //   borders.csv  time_s, phase, structure, depth_mm: every crossing of the line and a border
 //   ring.csv     time_s, exact_mm, traced_mm (empty after systole): with a ring as target
 //   mmode.json   line, rate, white, scene, measurements; written last, with a digest of itself
-// Throws SceneError, JobError. An earlier mmode.json is removed first, so a folder with one is
-// complete.
+// Throws SceneError, JobError. Once the line has been found, an earlier mmode.json and ring.csv are
+// removed, so a folder with mmode.json is complete.
 MMode writeMMode(const Scene& scene, const MModeOptions& options, const Monitor& monitor = {});
 
 }  // namespace echocine

@@ -112,8 +112,10 @@ void OutputFolder::removeTruth(int first) const {
   if (!fs::is_directory(truth(), failed)) return;
   removeFrames(truth(), {"labels_", ".png"}, first);
   removeFrames(truth(), {"contours_", ".json"}, first);
-  for (const char* name : {"labels.json", "tracks.npz", "function.json"})
+  for (const char* name : {"labels.json", "tracks.npz", "function.json"}) {
     removeFile(truth() / name);
+    removePartsOf(truth() / name);
+  }
   fs::remove(truth(), failed);  // only an empty one goes
 }
 

@@ -68,11 +68,10 @@ std::shared_ptr<Distance> makeDistance(const Path& real, const NativeScene& scen
   runJob(py::none(), [&](const Monitor& monitor) {
     withThreads(0, [&] {
       const echo::EchoLoop loop = echo::readLoop(real, options, true);
-      made = std::make_shared<Distance>(loop, scene.scene.probe);
+      const Scene stands = placed(scene.scene);
+      made = std::make_shared<Distance>(loop, stands.probe);
       if (most_deg > 0)
-        made->tilt =
-            fit::tiltJson(fit::fitScene(placed(scene.scene), loop, options, most_deg, monitor))
-                .dump();
+        made->tilt = fit::tiltJson(fit::fitScene(stands, loop, options, most_deg, monitor)).dump();
     });
   });
   return made;

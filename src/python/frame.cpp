@@ -128,9 +128,9 @@ void bindFrame(py::module_& module) {
                              "(depth, line) float32: log-compressed, 0 black to 1 white.")
       .def_property_readonly("image", &image,
                              "(H, W) uint8 pixels: the picture, without ECG and depth ticks.")
-      .def_property_readonly(
-          "channels", &channels,
-          "Each channel of output.channels by name, (depth, line) float32 or uint32.")
+      .def_property_readonly("channels", &channels,
+                             "Each channel of output.channels by name, except display.Y (greys); "
+                             "(depth, line) float32 or uint32.")
       .def_property_readonly("labels", &labels, "(H, W) uint8: structures at the picture's pixels.")
       .def_property_readonly(
           "tracks", &tracks,

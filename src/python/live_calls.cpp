@@ -23,6 +23,7 @@ class LiveServer {
   // Returns once the page is served. Throws what serveLive() throws.
   LiveServer(const std::string& text, const std::filesystem::path& file, const Meshes* meshes,
              const std::filesystem::path& record, int port, int threads) {
+    beginWork();
     live::LiveOptions options{.scene = file,
                               .text = text,
                               .meshes = {},

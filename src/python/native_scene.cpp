@@ -48,6 +48,12 @@ py::object toPython(const KeyDefault& value) {
 py::dict absentKeys(const NativeScene& native) {
   py::dict keys;
   for (const auto& [key, value] : native.absent) keys[py::str(key)] = toPython(value);
+  if (!native.scene.output.channels_given) {
+    py::list channels;
+    for (const Channel channel : native.scene.output.channels)
+      channels.append(channelName(channel));
+    keys["output.channels"] = channels;
+  }
   return keys;
 }
 

@@ -11,28 +11,38 @@ namespace py = pybind11;
 
 echo::SideOptions sideOf(const py::dict& given, const char* argument) {
   echo::SideOptions side;
-  for (const auto& [key, value] : given) {
+  for (const auto& [key, given_value] : given) {
     const auto name = py::str(key).cast<std::string>();
+    const py::handle value = given_value;
+    const auto as = [&]<typename T>(T, const char* accepted) {
+      try {
+        return value.cast<T>();
+      } catch (const py::cast_error&) {
+        throw py::value_error(fmt::format("{}: {}: is {}, accepted: {}", argument, name,
+                                          py::repr(value).cast<std::string>(), accepted));
+      }
+    };
+    const auto number = [&] { return as(double{}, "a number"); };
     if (name == "fps")
-      side.fps = value.cast<double>();
+      side.fps = number();
     else if (name == "mm_per_pixel")
-      side.mm_per_pixel = value.cast<double>();
+      side.mm_per_pixel = number();
     else if (name == "pixel_aspect")
-      side.pixel_aspect = value.cast<double>();
+      side.pixel_aspect = number();
     else if (name == "heart_rate_bpm")
-      side.heart_rate_bpm = value.cast<double>();
+      side.heart_rate_bpm = number();
     else if (name == "sector")
-      side.sector = value.cast<std::string>();
+      side.sector = as(std::string{}, "text");
     else if (name == "ed_frame")
-      side.ed_frame = value.cast<double>();
+      side.ed_frame = number();
     else if (name == "es_frame")
-      side.es_frame = value.cast<double>();
+      side.es_frame = number();
     else if (name == "r_waves_s")
-      side.r_waves_s = value.cast<std::vector<double>>();
+      side.r_waves_s = as(std::vector<double>{}, "a list of numbers");
     else if (name == "label")
-      side.label = value.cast<std::string>();
+      side.label = as(std::string{}, "text");
     else if (name == "read_ecg")
-      side.read_ecg = value.cast<bool>();
+      side.read_ecg = as(bool{}, "True or False");
     else
       throw py::value_error(
           fmt::format("{}: \"{}\" is not known, accepted: fps, mm_per_pixel, pixel_aspect, "

@@ -40,11 +40,12 @@ std::pair<int, int> frameRange(const RenderOptions& options, int loop_frames) {
   return range;
 }
 
-[[noreturn]] void failOfOtherLoop(const std::filesystem::path& folder) {
+[[noreturn]] void failOfOtherLoop(const RenderOptions& options) {
   throw SceneError(
       fmt::format("{}: holds the loop of another scene or program version: choose another folder, "
-                  "or give --overwrite",
-                  folder.string()));
+                  "or {}",
+                  options.folder.string(),
+                  options.resume ? "leave out --resume and give --overwrite" : "give --overwrite"));
 }
 
 // Before anything is touched: what is there must be of this scene.
@@ -55,10 +56,10 @@ void refuseOtherScene(const Scene& scene, const RenderOptions& options, const Ma
     if (options.resume)
       stack.refuseOtherScene(i);
     else if (stack.isOfAnotherScene(i))
-      failOfOtherLoop(options.folder);
+      failOfOtherLoop(options);
   }
-  if (!options.resume && isOfAnotherScene(options.folder / "manifest.json", manifest.scene_sha256))
-    failOfOtherLoop(options.folder);
+  if (isOfAnotherScene(options.folder / "manifest.json", manifest.scene_sha256))
+    failOfOtherLoop(options);
 }
 
 // The terminal has whole paths, the manifest and its page none.

@@ -163,9 +163,10 @@ void FolderSink::endEarly() {
 
 namespace {
 
-// The instant of the loop's first beat at which it has a phase; phases ascend within a beat.
-double timeOfPhase(const CardiacClock& clock, double phase, double loop_s) {
-  double low_s = 0, high_s = std::min(clock.at(0).beat_s, loop_s);
+// The instant of the first beat at which it has a phase, also of a loop that ends before; phases
+// ascend within a beat.
+double timeOfPhase(const CardiacClock& clock, double phase) {
+  double low_s = 0, high_s = clock.at(0).beat_s;
   for (int i = 0; i < 60; ++i) {
     const double middle_s = 0.5 * (low_s + high_s);
     const FrameTime time = clock.atTime(middle_s);
@@ -181,12 +182,11 @@ void FolderSink::finishTruth() {
   LoopTruth loop{truth.tracked(), truth.view(), {}};
   if (const auto& valves = truth.valves()) {
     const CardiacClock& clock = parts_.simulator.cardiacClock();
-    const double loop_s = clock.frameCount() / parts_.simulator.scene().acquisition.frame_rate_hz;
     for (const auto& [name, phase] : {std::pair("mitral_closes", valves->mitral_closes),
                                       std::pair("aortic_opens", valves->aortic_opens),
                                       std::pair("aortic_closes", valves->aortic_closes),
                                       std::pair("mitral_opens", valves->mitral_opens)})
-      loop.events.push_back({name, phase, timeOfPhase(clock, phase, loop_s)});
+      loop.events.push_back({name, phase, timeOfPhase(clock, phase)});
   }
   manifest_.files.merge(truth_files_->finish(loop));
   manifest_.curves = functionCurves(truth_files_->functions());

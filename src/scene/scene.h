@@ -123,7 +123,7 @@ struct SpeckleSettings {
   double per_cell = 3;             // scatterers per resolution cell
   double smoothing_m = 0.7e-3;     // full width at half maximum, along the lines; 0: none
   double tissue_time_s = 0;        // renewal time of tissue scatterers; 0: never
-  double surroundings_time_s = 0;  // of chest wall and lung; 0: never
+  double surroundings_time_s = 0;  // of chest wall and lung; 0: as tissue_time_s
   double blood_time_s = 0.01;  // renewal time of blood scatterers; our choice: well under a frame
   // Backscatter that varies in space and moves with the tissue. Log-normal with mean 1: the sum of
   // two fields of equal variance, an isotropic one and one of layers across the beam, of the given

@@ -152,7 +152,7 @@ Scene parse(std::string_view text, const std::filesystem::path& file, const Name
   readSignal(root.table("signal"), scene);
   readAccuracy(root.table("accuracy"), scene);
   readOutput(root.table("output"), scene);
-  if (root.has("truth")) readTruth(root.table("truth"), scene);
+  readTruth(root.table("truth"), scene);
   root.finish();
   refuseContradictions(root, scene);
   for (std::string& warning : keyframeWarnings(scene)) scene.warnings.push_back(std::move(warning));

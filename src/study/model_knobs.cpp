@@ -21,8 +21,9 @@ constexpr ModelSwitch kSwitches[] = {
      Effect::snell_angles, &EffectSwitches::snell_angles},
     {"reflection_cap", "effects.reflection_cap", "no wall reflects more than at normal incidence",
      Effect::reflection_cap, &EffectSwitches::reflection_cap},
-    {"thin_layers", "effects.thin_layers", "interfaces within one pulse echo coherently",
-     Effect::thin_layers, &EffectSwitches::thin_layers}};
+    {"thin_layers", "effects.thin_layers",
+     "interfaces less than half a pulse apart echo coherently", Effect::thin_layers,
+     &EffectSwitches::thin_layers}};
 
 void addSwitch(const Scene& scene, const ModelSwitch& of, KnobBuilder& table) {
   if (scene.effects.*of.wanted != Switch::automatic)

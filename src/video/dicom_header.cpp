@@ -209,7 +209,9 @@ std::vector<std::byte> dicomHeader(const DicomLoop& loop) {
   putOrigin(data, loop);
   // PS3.3 C.8.5.6.1.1: the kind of examination, and 1 for two-dimensional imaging.
   put(data, DCM_ImageType, EVR_CS,
-      fmt::format("ORIGINAL\\PRIMARY\\{}\\0001", loop.view ? "TTE" : ""));
+      fmt::format("ORIGINAL\\PRIMARY\\{}\\0001", !loop.view                       ? ""
+                                                 : isTransoesophageal(*loop.view) ? "TEE"
+                                                                                  : "TTE"));
   putPixelFormat(data, scene.output);
   putTimes(data, loop);
   putRegion(data, scene);

@@ -75,6 +75,16 @@ def test_plan(scene):
     assert "reflection" in repr(plan) and "<table>" in plan._repr_html_()
 
 
+def test_threads_are_checked_everywhere(scene, tmp_path):
+    for call in (lambda n: echocine.plan(scene, threads=n), lambda n: echocine.study(scene, threads=n),
+                 lambda n: echocine.heart(threads=n), lambda n: echocine.mmode(scene, threads=n),
+                 lambda n: echocine.doppler(scene, threads=n), lambda n: echocine.export(scene, tmp_path / "x.gif", threads=n),
+                 lambda n: echocine.ModelLoop(scene, threads=n), lambda n: scene.live(threads=n)):
+        for threads in (-1, 4097, 1.5, True):
+            with pytest.raises(ValueError, match="threads: is .*, accepted: a whole number from 0 to 4096"):
+                call(threads)
+
+
 def test_study(scene, tmp_path):
     result = echocine.study(scene, tmp_path / "study", frames=1, repeats=1, knobs=["lines"])
     assert result["rows"] and (tmp_path / "study" / "study.html").exists()
@@ -101,6 +111,9 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
     with pytest.raises(ValueError, match="nan"):
         distance(0, np.full_like(loop.greys[0], np.nan))
     assert distance.tilt is None
+    placed = heart.copy()  # by the anatomy: as the render placed it
+    placed.update({"probe.apex": None, "probe.axis": None, "probe.lateral": None, "probe.view": "a4c"})
+    assert echocine.FrameDiscrepancy(tmp_path / "loop", placed).overlap == pytest.approx(distance.overlap, abs=0.02)
     tilted = echocine.FrameDiscrepancy(tmp_path / "loop", heart, tilt_deg=2)
     assert abs(tilted.tilt["tilt_deg"]) <= 2 and tilted.tilt["discrepancy"] <= tilted.tilt["discrepancy_untilted"]
     assert tilted.tilt["probe_toml"].startswith("apex = ")
@@ -108,6 +121,10 @@ def test_compare_and_discrepancy_with_itself(heart, tmp_path):
         echocine.compare(loop, tmp_path, tilt_deg=30)
     with pytest.raises(ValueError, match="sid: |not known, accepted"):
         echocine.compare(loop, tmp_path, real_side={"sid": 1})
+    for side, words in (({"fps": "fifty"}, "fps: is 'fifty', accepted: a number"),
+                        ({"r_waves_s": 0.3}, "r_waves_s: is 0.3, accepted: a list of numbers")):
+        with pytest.raises(ValueError, match=words):
+            echocine.compare(loop, tmp_path, real_side=side)
 
 
 def test_warnings_are_python_warnings(recwarn):
@@ -124,6 +141,9 @@ def test_notebook(scene):
     player = loop._repr_html_()
     assert player.count("data:image/png;base64,") == 3 and "http" not in player
     assert scene._repr_html_().count("<path") == 2  # the sector and the ball
+    placed = echocine.heart(keyframes=4)
+    placed.update({"probe.apex": None, "probe.axis": None, "probe.lateral": None, "probe.depth_mm": None, "probe.view": "a4c"})
+    assert "figcaption" in placed._repr_html_()
 
 
 def test_loops_become_a_file_for_slides(scene, tmp_path):

@@ -1,5 +1,6 @@
 """Loops in memory, in folders, and as the program makes them."""
 
+import json
 import os
 import random
 import shutil
@@ -119,12 +120,47 @@ def test_planes_without_a_stack(scene):
     assert np.array_equal(loop.channel("display.Y"), loop.greys)
 
 
+def test_the_default_channel_is_that_of_the_scene(scene):
+    assert scene["output.channels"] == ["Y"]
+    bare = scene.copy()
+    bare["effects.attenuation"] = "off"
+    assert bare["output.channels"] == ["unattenuated.Y"] and bare["truth.tracks"] == 1000 and bare["truth.papillary"] == "wall"
+    loop = echocine.render(bare, frames=(0, 1), truth="displacement")
+    assert loop.channel("unattenuated.Y").shape == loop.displacement.shape[:1] + loop.displacement.shape[2:]
+
+
+def test_valve_times_of_a_part_of_a_beat_are_those_of_the_beat(heart, tmp_path):
+    times = []
+    for beats in (1.0, 0.25):
+        asked = heart.copy()
+        asked["acquisition.beats"] = beats
+        echocine.render(asked, tmp_path / str(beats), truth="function")
+        events = json.loads((tmp_path / str(beats) / "truth" / "function.json").read_text())["valves"]
+        times.append({name: event["time_s"] for name, event in events.items()})
+    assert len(times[0]) == 4 and times[1] == pytest.approx(times[0], abs=1e-6)
+
+
+def test_a_part_of_a_loop_stays_a_part(scene, tmp_path):
+    part = echocine.render(scene, frames=(1, 3))
+    assert echocine.export(part, tmp_path / "part.gif").frames == 2
+
+
+def test_names_of_channels_are_not_those_of_properties(pair):
+    folder = pair[1]
+    assert folder.times_s.ndim == 1 and folder.displacement.ndim == 4
+    for name in ("times_s", "displacement"):
+        with pytest.raises(ValueError, match=f"{name}: is not in"):
+            folder.channel(name)
+
+
 def test_a_closed_loop(scene):
     with echocine.render(scene, frames=(0, 2)) as loop:
         greys = loop.greys
         before = greys.copy()
     with pytest.raises(ValueError, match="closed"):
         loop.greys
+    with pytest.raises(ValueError, match="closed"):
+        loop.manifest
     assert np.array_equal(greys, before) and "closed" in repr(loop)
 
 

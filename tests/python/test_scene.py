@@ -15,6 +15,13 @@ SOURCE = Path(__file__).resolve().parents[2]
 EVERY_KEY = SOURCE / "examples" / "every_key" / "scene.toml"
 
 
+def test_segments_are_checked():
+    for segments, words in (({7.9: 0}, "7.9 is no segment"), ({"x": 0}, "'x' is no segment"),
+                            ({7: "a"}, "segment 7: is 'a', accepted: a number"), ({7: (0, 1, 2)}, "segment 7: is ")):
+        with pytest.raises(echocine.SceneError, match=words):
+            echocine.heart(segments=segments)
+
+
 def test_every_key_of_the_documented_scene_reads_back():
     scene = echocine.Scene(EVERY_KEY)
     document = tomllib.loads(EVERY_KEY.read_text())

@@ -189,6 +189,8 @@ class Archive(unittest.TestCase):
             self.assertAlmostEqual(float(ecg["start_time_offset"][()]), -0.1, places=6)
             samples = ecg["samples"][()]
             self.assertEqual(int(numpy.argmax(samples[:100])), 50)  # the R wave at the first frame
+            # From 0.1 s before the loop to 0.1 s after the last frame's interval.
+            self.assertAlmostEqual((len(samples) - 1) / 500 - 0.1, exr["display.Y"].shape[0] / 8 + 0.1, delta=0.002 + 1e-6)
             self.assertAlmostEqual(float(ecg["samples"][()].max()), 1, delta=0.05)
             self.assertEqual(file["metadata/subject/id"].asstr()[()], "ec01")
             strain = file["metadata/longitudinal_strain/samples"][()]
@@ -202,6 +204,17 @@ class Archive(unittest.TestCase):
             self.assertIn(words, run.stderr)
             self.assertEqual(run.stderr.count("\n"), 1)
             self.assertFalse(os.path.exists(self.path("bad")))
+
+    def test_a_damaged_catalogue_is_refused_before_anything_changes(self):
+        os.makedirs(self.path("damaged"))
+        for text in ("[]", '{"recordSet": 3}', "{"):
+            with open(self.path("damaged", "croissant.json"), "w") as file:
+                file.write(text)
+            run = subprocess.run([PROGRAM, "archive", self.path("scene.toml"), "-o", self.path("damaged"), "--layout", "echoxflow",
+                                  "--quiet"], capture_output=True, text=True)
+            self.assertEqual((run.returncode, run.stderr.count("\n")), (2, 1), run.stderr)
+            self.assertIn("is not a catalogue of recordings", run.stderr)
+            self.assertEqual(os.listdir(self.path("damaged")), ["croissant.json"])
 
 
 if __name__ == "__main__":

@@ -45,6 +45,25 @@ TEST_F(DatasetGrowth, MoreHeartsKeepFinishedOnes) {
   EXPECT_EQ(made("grown"), made("fresh"));
 }
 
+// The tables of a dataset that has grown are those of the earlier spec until it is merged.
+TEST_F(DatasetGrowth, TheStatusKnowsThatNewHeartsAreNotMerged) {
+  ASSERT_EQ(make("grown", kTwoHearts).code, 0);
+  const auto status = [&] {
+    return runShell("%B dataset --status '" + (place / "grown").string() + "'").out;
+  };
+  EXPECT_NE(status().find("2 of 2 hearts finished, 0 failed, 0 missing; merged"),
+            std::string::npos);
+  place.write(
+      "spec.toml",
+      "name = \"growth\"\nhearts = [2, 1]\nviews = [\"a4c\"]\nlayouts = [\"native\"]\n" + rest);
+  const Outcome part = runShell("%B dataset '" + (place / "spec.toml").string() + "' -o '" +
+                                (place / "grown").string() + "' --task 1/1 --quiet");
+  EXPECT_EQ(part.code, 0) << part.err;
+  EXPECT_NE(status().find("3 of 3 hearts finished, 0 failed, 0 missing; not merged"),
+            std::string::npos)
+      << status();
+}
+
 TEST_F(DatasetGrowth, MoreViewsAndLayoutsEndInTheSameBytes) {
   ASSERT_EQ(make("grown", kTwoHearts).code, 0);
   const auto before = made("grown");

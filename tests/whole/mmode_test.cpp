@@ -175,6 +175,25 @@ TEST(MMode, TheBytesDoNotDependOnThreads) {
   }
 }
 
+// A line outside the sector is refused before an earlier M-mode is touched.
+TEST(MMode, ARefusedRunLeavesTheEarlierOne) {
+  TempFolder folder;
+  const Scene scene = readScene(writeBall(folder, ball()));
+  MModeOptions options;
+  options.request.rate_hz = 20;
+  options.folder = folder / "out";
+  writeMMode(scene, options);
+  const std::string whole = bytesOf(options.folder / "mmode.json");
+  folder.write("out/ring.csv", "of another line");
+  options.request.place = 1;  // rad
+  EXPECT_THROW(writeMMode(scene, options), SceneError);
+  EXPECT_EQ(bytesOf(options.folder / "mmode.json"), whole);
+  options.request.place.reset();
+  writeMMode(scene, options);
+  EXPECT_EQ(bytesOf(options.folder / "mmode.json"), whole);
+  EXPECT_FALSE(std::filesystem::exists(options.folder / "ring.csv"));
+}
+
 TEST(MMode, RefusesWhatItCannotShowInOneLine) {
   TempFolder folder;
   const std::string scene = writeBall(folder, ball()).string();

@@ -127,6 +127,7 @@ TEST_F(PartsOfALoop, AFolderOfAnotherSceneIsReplacedOnlyWhenAsked) {
   EXPECT_TRUE(fs::exists(out / "manifest.json"));
   fs::remove_all(out / "intensity");
   EXPECT_EQ(render().code, 2) << "the manifest alone tells";
+  EXPECT_EQ(render("--resume").code, 2) << "also on resuming";
   EXPECT_EQ(render("--overwrite").code, 0);
 }
 

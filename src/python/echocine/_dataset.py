@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine, _toml
-from ._errors import SceneError, SceneWarning
+from ._errors import SceneError, SceneWarning, thread_count, whole_number
 from ._progress import Progress, report_to
 from ._verify import HeartFiles
 
@@ -267,11 +267,6 @@ def _spec(spec: Spec) -> Tuple[Optional[str], Path]:
     raise TypeError(f"spec: is {type(spec).__name__}, accepted: a path, TOML text or a dict")
 
 
-def _whole(name: str, value: Any, least: int, most: int) -> None:
-    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
-        raise ValueError(f"{name}: is {value!r}, accepted: a whole number from {least} to {most}")
-
-
 def _pixel_mm(loop: PathLike, mm: Any) -> float:
     if isinstance(mm, bool) or not isinstance(mm, (int, float)) or not 0.01 <= mm <= 10:
         raise ValueError(f"real: {loop} has {mm!r}, accepted: 0.01 to 10 mm per pixel")
@@ -306,7 +301,7 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
 
     Raises SceneError (the spec, or a folder of another spec) and JobError (files cannot be written, hearts are missing).
     """
-    _whole("threads", threads, 0, 4096)
+    thread_count(threads)
     if real is not None and not merge:
         raise ValueError("real: is given without merge, accepted: with merge=True")
     loops = [(Path(loop), _pixel_mm(loop, mm)) for loop, mm in (real or {}).items()]
@@ -315,8 +310,8 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
             raise ValueError("merge: is True and a task is given, accepted: one of them")
         if not isinstance(task, (tuple, list)) or len(task) != 2:
             raise ValueError(f"task: is {task!r}, accepted: (k, n), the k-th of n parts, from 1")
-        _whole("task: n", task[1], 1, 2**31 - 1)
-        _whole("task: k", task[0], 1, task[1])
+        whole_number("task: n", task[1], 1, 2**31 - 1)
+        whole_number("task: k", task[0], 1, task[1])
     text, file = _spec(spec)
     path = Path(folder)
     made: Dict[str, int] = {}
@@ -376,8 +371,8 @@ def preview_dataset(spec: Spec, page: PathLike, hearts: int = 16, *, threads: in
     Returns what the whole dataset takes by its first heart: seconds (s, on these threads) and bytes; and of the page hearts,
     and impossible, the draws before them that no heart fulfilled.
     """
-    _whole("hearts", hearts, 1, 1000)
-    _whole("threads", threads, 0, 4096)
+    whole_number("hearts", hearts, 1, 1000)
+    thread_count(threads)
     path = Path(page)
     if path.suffix != ".html":
         raise SceneError(f"page: is \"{path}\", accepted: a name that ends in .html")

@@ -60,7 +60,7 @@ class Frame:
         """(H, W) uint8 pixels: the picture, without ECG and depth ticks."""
     @property
     def channels(self) -> Dict[str, NDArray[Any]]:
-        """Each channel of output.channels by name, (depth, line) float32 or uint32."""
+        """Each channel of output.channels by name, except display.Y (`greys`); (depth, line) float32 or uint32."""
     @property
     def labels(self) -> NDArray[np.uint8]:
         """(H, W) uint8: structures at the picture's pixels."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import Optional
+from typing import Any, Optional
 
 _PLACE = re.compile(r"(?P<file>[^\n]+?):(?P<line>\d+): (?:(?P<key>[A-Za-z_][\w.\-]*): )?")
 _KEY = re.compile(r"(?P<key>[a-z_]+\.[\w.\-]*): ")
@@ -48,3 +48,14 @@ class JobError(RuntimeError):
 
 class SceneWarning(UserWarning):
     """A scene says what is accepted but hardly meant."""
+
+
+def whole_number(name: str, value: Any, least: int, most: int) -> int:
+    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+        raise ValueError(f"{name}: is {value!r}, accepted: a whole number from {least} to {most}")
+    return value
+
+
+def thread_count(threads: Any) -> int:
+    """0 (one per core) to 4096, as of the commands."""
+    return whole_number("threads", threads, 0, 4096)

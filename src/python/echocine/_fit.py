@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _echocine
+from ._errors import thread_count
 from ._jobs import PathLike, _scene
 from ._progress import Progress, report_to
 from ._scene import Scene
@@ -67,7 +68,7 @@ class ModelLoop:
     """
 
     def __init__(self, scene: Scene, *, focus: str = "all", threads: int = 0) -> None:
-        self._native = _echocine.ModelLoop(_scene(scene), focus, threads)
+        self._native = _echocine.ModelLoop(_scene(scene), focus, thread_count(threads))
 
     @classmethod
     def _of(cls, native: _echocine.ModelLoop) -> "ModelLoop":
@@ -129,7 +130,7 @@ class HeartFamily:
         if not isinstance(ranges, Mapping):
             raise ValueError(f"ranges: is {type(ranges).__name__}, accepted: dial -> (least, most)")
         pairs = [_pair(str(dial), pair) for dial, pair in ranges.items()]
-        self._native = _echocine.HeartFamily(pairs, view, _dashed(dials), nodes, tilt_deg, _cache_folder(cache), threads, report_to(progress))
+        self._native = _echocine.HeartFamily(pairs, view, _dashed(dials), nodes, tilt_deg, _cache_folder(cache), thread_count(threads), report_to(progress))
 
     @property
     def ranges(self) -> Dict[str, Tuple[float, float]]:
@@ -143,7 +144,7 @@ class HeartFamily:
 
     def at(self, values: ArrayLike, *, tilt_deg: float = 0, rotate_deg: float = 0, focus: str = "all", threads: int = 0) -> ModelLoop:
         """The heart at one value per range, (ranges,) float64. Angles are within the family's tilt_deg; focus: see `ModelLoop`. Thread-safe."""
-        return ModelLoop._of(self._native.at(_numbers("values", values), tilt_deg, rotate_deg, focus, threads))
+        return ModelLoop._of(self._native.at(_numbers("values", values), tilt_deg, rotate_deg, focus, thread_count(threads)))
 
 
 class HeartPrior:
@@ -226,7 +227,7 @@ class ModelDiscrepancy:
     def __init__(self, real: PathLike, first: ModelLoop, *, side: Optional[Mapping[str, Any]] = None,
                  weights: Sequence[float] = (0.5, 0.3, 0.2), threads: int = 0, progress: Progress = None) -> None:
         self._native = _echocine.ModelDiscrepancy(Path(real), _model("first", first), dict(side or {}),
-                                                  list(_numbers("weights", weights).ravel()), threads, report_to(progress))
+                                                  list(_numbers("weights", weights).ravel()), thread_count(threads), report_to(progress))
         self.beat: Dict[str, Any] = self._native.beat
 
     def __call__(self, model: ModelLoop, poses: ArrayLike) -> Any:
@@ -284,7 +285,7 @@ class ModelDiscrepancy:
 
     def _search(self, model: ModelLoop, starts: Optional[ArrayLike], everywhere: bool, threads: int) -> PoseFound:
         from_poses = None if starts is None else _numbers("starts", starts)
-        return PoseFound(self._native.search(_model("model", model), from_poses, everywhere, threads))
+        return PoseFound(self._native.search(_model("model", model), from_poses, everywhere, thread_count(threads)))
 
 
 def _model(argument: str, model: Any) -> _echocine.ModelLoop:

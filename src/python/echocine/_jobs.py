@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
+from ._errors import thread_count
 from ._loop import Loop, render
 from ._progress import Progress, report_to
 from ._scene import Scene
@@ -65,7 +66,7 @@ class Plan:
 
 def plan(scene: Scene, *, threads: int = 0, progress: Progress = None) -> Plan:
     """Which effects a scene's loop needs and why, and how long it takes, from rendering a few frames."""
-    return Plan(json.loads(_echocine.plan(_scene(scene), threads, report_to(progress))))
+    return Plan(json.loads(_echocine.plan(_scene(scene), thread_count(threads), report_to(progress))))
 
 
 def study(scene: Scene, folder: Optional[PathLike] = None, *, frames: int = 4, repeats: int = 3, knobs: Sequence[str] = (),
@@ -89,7 +90,7 @@ def study(scene: Scene, folder: Optional[PathLike] = None, *, frames: int = 4, r
             raise ValueError(f"{name}: is {value}, accepted: 1 to 1000")
     path = None if folder is None else Path(folder)
     result: Dict[str, Any] = json.loads(
-        _echocine.study(_scene(scene), path, frames, repeats, list(knobs), budget_s, threads, report_to(progress)))
+        _echocine.study(_scene(scene), path, frames, repeats, list(knobs), budget_s, thread_count(threads), report_to(progress)))
     return result
 
 
@@ -137,6 +138,7 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
     """
+    thread_count(threads)
     with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
         source = _as_files(synthetic, Path(spare) / "loop", threads)
         summary, frames = _echocine.compare(source, Path(real), None if folder is None else Path(folder), dict(real_side or {}),
@@ -155,9 +157,8 @@ def _as_files(loop: Union[Loop, PathLike], spare: Path, threads: int) -> Path:
         raise ValueError("synthetic: the loop has no scene, accepted: a loop of render or a folder")
     lossless = loop.scene.copy()
     lossless.update({"output.codec": "ffv1", "output.exr": True, "output.report": False,
-                     "output.channels": sorted({*lossless["output.channels"], "display.Y"} if lossless["output.channels"] else
-                                               {"Y", "display.Y"})})
-    render(lossless, spare, threads=threads)
+                     "output.channels": sorted({*lossless["output.channels"], "display.Y"})})
+    render(lossless, spare, frames=loop._frames, threads=threads)
     return spare
 
 
@@ -197,6 +198,7 @@ def export(loops: Union[Loop, PathLike, Sequence[Union[Loop, PathLike]]], output
         threads: 0: one per core.
     """
     given = [loops] if isinstance(loops, (Loop, str, os.PathLike)) else list(loops)
+    thread_count(threads)
     with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
         files = [_as_files(loop, Path(spare) / str(i), threads) for i, loop in enumerate(given)]
         return Exported(*_echocine.export_loops(files, Path(output), list(captions), columns, width, repeats, speed, fps, tint, threads,

@@ -10,7 +10,7 @@ import weakref
 from typing import Any, Optional, Union
 
 from . import _echocine
-from ._errors import SceneWarning
+from ._errors import SceneWarning, thread_count
 
 PathLike = Union[str, "os.PathLike[str]"]
 
@@ -31,7 +31,7 @@ class LivePage:
     def __init__(self, text: str, file: str, meshes: Optional[_echocine.Meshes], record: Optional[PathLike], port: int, threads: int) -> None:
         if not 0 <= port <= 65535:
             raise ValueError(f"port: is {port}, accepted: 0 to 65535")
-        self._server = _echocine.LiveServer(text, file, meshes, os.fspath(record) if record is not None else "", port, threads)
+        self._server = _echocine.LiveServer(text, file, meshes, os.fspath(record) if record is not None else "", port, thread_count(threads))
         self.link: str = self._server.link
         for line in self._server.warnings:
             warnings.warn(line, SceneWarning, stacklevel=3)

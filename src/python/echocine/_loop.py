@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._errors import JobError, SceneError
+from ._errors import JobError, SceneError, thread_count
 from ._progress import Progress, report_to
 from ._scene import Scene
 from ._verify import RenderFiles, is_sealed
@@ -34,10 +34,11 @@ class Loop:
     """
 
     def __init__(self, scene: Optional[Scene], native: Optional[_echocine.LoopArrays] = None, folder: Optional[Path] = None,
-                 verify: bool = True) -> None:
+                 verify: bool = True, frames: Optional[Tuple[int, int]] = None) -> None:
         self._scene, self._native, self._folder = scene, native, folder
+        self._frames = frames  # of the scene's loop; None: all
         self._closed = False
-        self._kept: Dict[str, Any] = {}
+        self._kept: Dict[Any, Any] = {}
         if folder is not None:
             self._manifest = _manifest(folder, verify)
             self._files = RenderFiles(folder, self._manifest, verify)
@@ -49,7 +50,7 @@ class Loop:
             raise ValueError("loop: is closed, accepted: an open loop; arrays taken before stay valid")
         return self._native
 
-    def _once(self, name: str, make: Any) -> Any:
+    def _once(self, name: Any, make: Any) -> Any:
         self._source()
         if name not in self._kept:
             self._kept[name] = make()
@@ -90,7 +91,7 @@ class Loop:
         """(T, depth, line) float32 (uint32 of "medium.id" and "structure.id") of one of output.channels, such as "Y"."""
         native = self._source()
         if native is None:
-            read: NDArray[Any] = self._once(name, lambda: self._read_channel(name))
+            read: NDArray[Any] = self._once(("channel", name), lambda: self._read_channel(name))
             return read
         planes = self._once("channels", lambda: native.channels)
         if name not in planes:
@@ -285,6 +286,7 @@ class Loop:
     @property
     def manifest(self) -> Dict[str, Any]:
         """manifest.json of its folder."""
+        self._source()
         if self._folder is None:
             raise ValueError("manifest: the loop is in memory, accepted: a loop in a folder")
         manifest: Dict[str, Any] = self._manifest
@@ -407,7 +409,7 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
     if "velocity_beam" in kinds:
         planes.append("velocity.beam")
     if planes:
-        changes["output.channels"] = [*(scene["output.channels"] or ["Y"]), *planes]
+        changes["output.channels"] = [*scene["output.channels"], *planes]
     asked.update(changes)
     return asked
 
@@ -432,8 +434,7 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
     """
     if not isinstance(scene, Scene):
         raise TypeError(f"scene: is {type(scene).__name__}, accepted: an echocine.Scene")
-    if not isinstance(threads, int) or not 0 <= threads <= 4096:
-        raise ValueError(f"threads: is {threads!r}, accepted: a whole number from 0 to 4096")
+    thread_count(threads)
     if frames is not None:
         try:
             first, end = (operator.index(frame) for frame in frames)
@@ -442,7 +443,7 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
         frames = (first, end)
     asked = _asking_for(scene, truth)
     if folder is None:
-        return Loop(asked, _echocine.render_in_memory(asked._native, frames, threads, report_to(progress)))
+        return Loop(asked, _echocine.render_in_memory(asked._native, frames, threads, report_to(progress)), frames=frames)
     path = Path(folder)
     _echocine.render_to_folder(asked._native, path, frames, threads, resume, overwrite, report_to(progress))
     return Loop(asked, folder=path)

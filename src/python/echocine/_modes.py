@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
+from ._errors import thread_count
 from ._progress import Progress, report_to
 from ._scene import Scene
 
@@ -88,7 +89,7 @@ def mmode(scene: Scene, folder: Optional[PathLike] = None, *, angle_deg: Optiona
     if (angle_deg is not None) + (offset_mm is not None) + (through is not None) > 1:
         raise ValueError("angle_deg, offset_mm, through: accepted: one of them")
     made: Dict[str, Any] = _echocine.mmode(_scene(scene), None if folder is None else Path(folder), angle_deg, offset_mm, through, rate_hz,
-                                           rows, threads, report_to(progress))
+                                           rows, thread_count(threads), report_to(progress))
     times_s, phases = made["times"]
     return MMode(made["line"], times_s, phases, made["intensities"], made["greys"], [Border(*b) for b in made["borders"]],
                  Ring(*made["ring"]) if "ring" in made else None)
@@ -153,7 +154,7 @@ def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 
         scene: what is scanned.
         folder: for velocity/, doppler.gif and doppler.json; None: no files.
         prf_hz: pulses a second on each line.
-        pulses: of a packet, 2 to 64.
+        pulses: of a packet, 2 to 64, with a wall filter more than 2.
         gate_mm: length along the line over which a velocity averages.
         wall_filter: "none", "mean", "line" or "parabola": polynomial removed from each packet.
         depth_mm, angle_deg, offset_mm: place of a spectrum; offset_mm for linear probes.
@@ -167,7 +168,7 @@ def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 
     if depth_mm is None and (angle_deg is not None or offset_mm is not None):
         raise ValueError("depth_mm: is None, accepted: a depth with angle_deg or offset_mm")
     made: Dict[str, Any] = _echocine.doppler(_scene(scene), None if folder is None else Path(folder), prf_hz, pulses, gate_mm, wall_filter,
-                                             depth_mm, angle_deg, offset_mm, through, volume_mm, threads, report_to(progress))
+                                             depth_mm, angle_deg, offset_mm, through, volume_mm, thread_count(threads), report_to(progress))
     spectrum = None
     if "spectrum" in made:
         (times_s, phases), power, mean, exact, peak, exact_peak = made["spectrum"]

@@ -99,7 +99,12 @@ def scene_svg(scene: "Scene") -> str:
     """The imaging plane: lateral to the right, depth downwards, in mm from the apex."""
     from ._errors import SceneError
     unit = {"mm": 1.0, "cm": 10.0, "m": 1000.0}[scene["motion.mesh_unit"]]
-    depth = float(scene["probe.depth_mm"])
+    deepest = scene["probe.depth_mm"]
+    if deepest is None:  # of a standard view, by the heart
+        return ""
+    # Lines start at the probe's face, which for a curvilinear probe lies in front of the apex.
+    face = "probe.face_radius_mm"
+    depth = float(deepest) + float((scene[face] if face in scene else None) or 0)
     paths = []
     try:
         origin, axis = np.asarray(scene["probe.apex"], float), np.asarray(scene["probe.axis"], float)

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine, _meshes, _toml
-from ._errors import SceneError
+from ._errors import SceneError, thread_count
 from ._progress import Progress, report_to
 
 if TYPE_CHECKING:
@@ -348,7 +348,7 @@ class Scene:
 
     @property
     def leaflets(self) -> Table:
-        """Thickness of the leaflets of mitral and tricuspid valve."""
+        """Thickness of leaflets and cusps; chordae and fibrous rings."""
         return Table(self, "leaflets")
 
     @property
@@ -475,9 +475,14 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
     given = {name: _number(f"heart: {name}", value) for name, value in dials.items()}
     walls = {}
     for number, wall in (segments or {}).items():
-        amplitude, delay_ms = wall if isinstance(wall, (tuple, list)) else (wall, 0.0)
-        walls[int(number)] = (float(amplitude), float(delay_ms) * 1e-3)
-    text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, even, threads, report_to(progress))
+        if isinstance(number, bool) or not isinstance(number, (int, np.integer)):
+            raise SceneError(f"heart: segments: {number!r} is no segment, accepted: whole numbers, 1 to 17")
+        parts = tuple(wall) if isinstance(wall, (tuple, list)) else (wall, 0.0)
+        if len(parts) != 2:
+            raise SceneError(f"heart: segment {number}: is {wall!r}, accepted: an amplitude, or (amplitude, delay in ms)")
+        amplitude, delay_ms = (_number(f"heart: segment {number}", part) for part in parts)
+        walls[int(number)] = (amplitude, delay_ms * 1e-3)
+    text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, even, thread_count(threads), report_to(progress))
     scene = Scene._of(text, "heart", meshes)
     if look != "scanner":  # which the heart's text has
         scene["signal.look"] = look
