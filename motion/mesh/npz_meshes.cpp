@@ -126,6 +126,10 @@ void checkCreases(const NpzReader& npz, const NpzMeshes& meshes) {
 }
 
 void readTags(const NpzReader& npz, NpzMeshes& meshes) {
+  for (const auto& [sharpness, of] :
+       {std::pair("corner_sharpness", "corners"), {"crease_sharpness", "creases"}})
+    if (npz.has(sharpness) && !npz.has(of))
+      npz.fail(fmt::format("has {} without {}", sharpness, of));
   if (npz.has("corners")) {
     checkShape(npz, "corners", npz.header("corners").shape, {0}, "(C,), vertices");
     const std::vector<std::uint32_t> corners = readVertices(npz, "corners", 1, meshes);

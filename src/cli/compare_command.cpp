@@ -86,9 +86,10 @@ void checkOptions(const compare::CompareOptions& o) {
 
 }  // namespace
 
-CompareCommand::CompareCommand(CLI::App& app) {
-  CLI::App* command =
-      app.add_subcommand("compare", "Compare a synthetic loop with an echo video, frame by frame");
+CompareCommand::CompareCommand(CLI::App& app)
+    : command_(app.add_subcommand("compare",
+                                  "Compare a synthetic loop with an echo video, frame by frame")) {
+  CLI::App* const command = command_;
   command
       ->add_option("synthetic", options_.synthetic,
                    "Folder of a render, or any video; omitted with --scan and --views")
@@ -171,8 +172,9 @@ int CompareCommand::run() {
   if (!scan_text_.empty() && !views_text_.empty())
     throw SceneError("--views: cannot be combined with --scan; give one of the two");
   if (!scan_text_.empty()) return runScan();
-  for (const bool given : {scan_.yes, view_text_ != "a4c"})
-    if (given) throw SceneError("--view and --yes: belong to --scan");
+  for (const char* of_scan : {"--yes", "--view"})
+    if (command_->get_option(of_scan)->count() > 0)
+      throw SceneError("--view and --yes: belong to --scan");
   if (!views_text_.empty()) return runViews();
   if (options_.real.empty())
     throw SceneError(
@@ -192,6 +194,15 @@ void CompareCommand::needOneLoop(const char* option) const {
     throw SceneError(fmt::format("{}: takes only the real loop; omit the synthetic one", option));
   if (!options_.scene.empty())
     throw SceneError(fmt::format("{}: uses its own hearts; omit --scene", option));
+  // Of the comparison of two loops.
+  for (const CLI::Option* other : command_->get_options()) {
+    const std::string name = other->get_name();
+    const bool of_two = name.starts_with("--synthetic-") || name == "--contours" ||
+                        name == "--knots" || name == "--knot-count" || name == "--monotone" ||
+                        name == "--band-mm" || name == "--sectors-only";
+    if (of_two && other->count() > 0)
+      throw SceneError(fmt::format("{}: cannot be combined with {}", name, option));
+  }
 }
 
 // One loop stands first, whatever the position is called.

@@ -29,6 +29,7 @@ class CompareCommand {
   // For a command that compares its own hearts with one loop.
   void needOneLoop(const char* option) const;
 
+  CLI::App* command_;
   compare::CompareOptions options_;
   fit::ScanOptions scan_;
   std::string scan_text_, views_text_, dials_text_, view_text_ = "a4c";

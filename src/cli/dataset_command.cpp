@@ -70,9 +70,10 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   command->add_option(
       "-o,--output", folder_,
       "Folder of the dataset; an existing one is resumed. With --preview: the page to write");
-  command->add_option("--status", status_, "Print the state of a dataset's folder");
-  command->add_option("--diff", other_spec_,
-                      "Print the keys that differ between this spec and another spec or folder");
+  CLI::Option* state =
+      command->add_option("--status", status_, "Print the state of a dataset's folder");
+  CLI::Option* difference = command->add_option(
+      "--diff", other_spec_, "Print the keys that differ between this spec and another one");
   CLI::Option* joining =
       command
           ->add_option("--join", joined_,
@@ -133,6 +134,9 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
       ->add_option("--sbatch", sbatch_,
                    "With --slurm: more options for sbatch, such as \"--partition=cpu\"")
       ->needs(slurm);
+  difference->excludes(state)->excludes(joining);
+  for (CLI::Option* other : {state->excludes(joining), difference, joining})
+    other->excludes(task)->excludes(merge)->excludes("--preview")->excludes(slurm);
   command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine dataset examples/datasets/smoke.toml -o smoke\n" +
                   std::string(kDocuments));

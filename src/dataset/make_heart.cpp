@@ -96,6 +96,10 @@ Instants instantsOf(const std::vector<LoopFrame>& frames) {
   const auto beat_end = std::find_if(frames.begin(), frames.end(),
                                      [](const LoopFrame& f) { return f.time.beat > 0; });
   const auto es = std::min_element(frames.begin(), beat_end, smaller);
+  constexpr double kStill = 1.001;  // of the smallest volume; our choice
+  if (es == frames.begin() && std::max_element(es, beat_end, smaller)->lv_ml > kStill * es->lv_ml)
+    throw SceneError(
+        "the left ventricle is smallest at the start of the loop: phase 0 must be end-diastole");
   const auto ed = std::max_element(frames.begin(), es + 1, smaller);
   return {static_cast<int>(ed - frames.begin()), static_cast<int>(es - frames.begin())};
 }

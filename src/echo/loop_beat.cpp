@@ -38,7 +38,9 @@ BeatLength beatOf(const EchoLoop& loop) {
     beat.source = source;
   };
   const Video& v = loop.video;
-  if (loop.frames_per_beat > 0)
+  if (v.heart_rate_bpm && v.rate.trusted && v.heart_rate_source.starts_with("--"))
+    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
+  else if (loop.frames_per_beat > 0)
     known(loop.frames_per_beat, "manifest");
   else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
     known(beatOfRWaves(v.r_waves_s, beat.frames / v.rate.hz).mean * v.rate.hz, "R waves");

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
@@ -17,6 +18,10 @@
 namespace echocine::echo {
 
 namespace {
+
+bool areAscending(const std::vector<double>& times) {
+  return std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
+}
 
 constexpr double kAspectNoted = 0.03, kAspectRefused = 0.12;  // our choice
 
@@ -32,6 +37,12 @@ void makeSquare(Video& video, double aspect) {
   for (PixelPlane& frame : video.frames) stretch(frame, cv::INTER_LINEAR);
   stretch(video.coloured, cv::INTER_NEAREST);
   video.height = height;
+  const auto stretched = [&](int rows) { return static_cast<int>(std::lround(rows * aspect)); };
+  for (UltrasoundRegion& region : video.regions) {
+    region.min_y = stretched(region.min_y);
+    region.max_y = stretched(region.max_y + 1) - 1;
+    region.cm_per_pixel_y /= aspect;
+  }
   video.notes.push_back(fmt::format(
       "pixels are {} times as high as wide, as given: the picture is stretched", aspect));
 }
@@ -127,6 +138,17 @@ void anchorBeat(EchoLoop& loop, const SideOptions& side, bool folder, bool recor
   }
 }
 
+// Renders and recordings state these themselves, and their greys lie in them.
+void refuseOfExact(const std::filesystem::path& path, const SideOptions& side, bool is_real) {
+  const std::string prefix = is_real ? "--" : "--synthetic-";
+  for (const auto& [given, option] : {std::pair(side.mm_per_pixel.has_value(), "scale"),
+                                      {side.sector.has_value(), "sector"},
+                                      {side.pixel_aspect.has_value(), "pixel-aspect"}})
+    if (given)
+      throw SceneError(fmt::format("{}{}: {} states its own scale and sector; omit the option",
+                                   prefix, option, path.string()));
+}
+
 bool insidePicture(const UltrasoundRegion& r, const Video& v) {
   return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
@@ -206,6 +228,8 @@ void checkSide(const SideOptions& side) {
   check("ed_frame", side.ed_frame, 0, kMostFrame);
   check("es_frame", side.es_frame, 0, kMostFrame);
   for (const double wave : side.r_waves_s) check("r_waves_s", wave, 0, kMostRWave_s);
+  if (!areAscending(side.r_waves_s))
+    throw SceneError("r_waves_s: are not in order, accepted: ascending times");
 }
 
 void checkScale(const EchoLoop& loop) {
@@ -220,6 +244,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
   checkSide(side);
   const bool folder = isRenderFolder(path), recording = !folder && isBeamRecording(path);
   const bool exact = folder || recording;  // sector and scale are known
+  if (exact) refuseOfExact(path, side, is_real);
   EchoLoop loop;
   if (folder) {
     loop = readRenderFolder(path);
@@ -237,7 +262,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
     v.heart_rate_source = is_real ? "--heart-rate" : "--synthetic-heart-rate";
   }
   if (!side.r_waves_s.empty()) v.r_waves_s = side.r_waves_s;
-  if (!exact || side.sector) findWhere(loop, side, is_real);
+  if (!exact) findWhere(loop, side, is_real);
   anchorBeat(loop, side, folder, recording);
   if (!exact) {
     loop.overlay = overlayMask(v, loop.sector());

@@ -220,7 +220,7 @@ std::vector<std::string> assumptionsOf(const HeartFit& fit) {
 
 void writeFit(const HeartFit& fit, const std::vector<std::string>& labels,
               const std::filesystem::path& folder) {
-  const ResultsFolder results(folder, {"fit.json", "curves.csv", "fit.html"});
+  const ResultsFolder results(folder, kFitFiles);
   if (fit.ef) results.write("curves.csv", curvesCsv(fit));
   if (!fit.stopped) writeFitPage(fit, labels, folder / "fit.html");
   results.write("fit.json", fitText(fit, labels));

@@ -2,6 +2,7 @@
 // Output files of a fitted heart.
 
 #include <filesystem>
+#include <initializer_list>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -9,6 +10,9 @@
 #include "fit/heart_fit.h"
 
 namespace echocine::fit {
+
+// What writeFit() writes.
+inline constexpr std::initializer_list<const char*> kFitFiles{"fit.json", "curves.csv", "fit.html"};
 
 // fit.json: result, dials, views with poses, rivals, hints, assumptions. curves.csv: the volume of
 // the left ventricle over the beat with its interval; in mL with a length scale, else relative to

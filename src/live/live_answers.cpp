@@ -220,7 +220,8 @@ void LiveSession::record(const Asked& asked) {
   const std::string pose = asked.text + '\n' + asked.subject->change.name();
   if (record_folder_.empty() || pose == recorded_) return;
   // Equal names are equal hearts, also in another session.
-  const std::string all = own_->scene.text() + asked.subject->change.name();
+  const std::string all = own_->scene.text() + asked.subject->change.name() +
+                          (dials_ ? dials_->json(asked.subject->change).dump() : "");
   const std::string heart = digestOfBytes(std::as_bytes(std::span(all))).substr(0, 16);
   const std::string text = textFor(*asked.subject, asked.text, record_folder_, "heart_" + heart);
   const auto bytes = std::as_bytes(std::span(text));

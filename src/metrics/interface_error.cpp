@@ -13,8 +13,15 @@ constexpr double kGate_m = 5e-3;
 
 // Position of a line of one probe among the lines of another that scans the same sector.
 double samePlace(int line, const Probe& from, const Probe& to) {
+  if (from.isFullTurn()) return (line + 0.5) / from.lines * to.lines - 0.5;
   const double t = from.lines > 1 ? static_cast<double>(line) / (from.lines - 1) : 0.5;
   return t * (to.lines - 1);
+}
+
+// Lines of a full turn close; others end.
+int lineAt(const Probe& probe, double place) {
+  const int line = static_cast<int>(place), lines = probe.lines;
+  return probe.isFullTurn() ? (line + lines) % lines : std::clamp(line, 0, lines - 1);
 }
 
 double sampleCentre(const Probe& probe, double depth_m) {
@@ -62,13 +69,13 @@ void InterfaceError::add(const InterfaceMap& setting, const InterfaceMap& refere
   for (std::size_t i = 0; i < reference.lines.size(); ++i) {
     const int line = static_cast<int>(i);
     const double place = samePlace(line, reference.probe, setting.probe);
-    const int left = static_cast<int>(std::floor(place));
-    const int right = std::min(left + 1, setting.probe.lines - 1);
+    const double before = std::floor(place);
+    const int left = lineAt(setting.probe, before), right = lineAt(setting.probe, before + 1);
     for (const InterfacePlace& p : reference.lines[i]) {
       const Vec3d truth = pointAt(reference.probe, line, p.depth_m);
       const std::optional<Vec3d> a = drawn(setting, left, p);
       // A line of the setting at the very angle draws the interface alone.
-      const std::optional<Vec3d> b = place > left ? drawn(setting, right, p) : a;
+      const std::optional<Vec3d> b = place > before ? drawn(setting, right, p) : a;
       if (!a && !b) {
         ++missed_;
         continue;

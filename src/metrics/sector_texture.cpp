@@ -27,7 +27,8 @@ class Sector {
       : picture_(picture), mask_(picture.grey.size()), interior_(picture.grey.size()) {
     fillMask();
     boxes_.emplace(picture.width, picture.height, picture.grey, mask_);
-    const int half_x = pixelsX(3), half_y = pixelsY(3);
+    // Neighbours of the interior are inside the picture.
+    const int half_x = std::max(pixelsX(3), 1), half_y = std::max(pixelsY(3), 1);
     forAll(mask_, [&](int x, int y, std::size_t i) {
       interior_[i] = boxes_->share(x, y, half_x, half_y) >= 0.999;
     });

@@ -114,10 +114,10 @@ std::vector<Keyframe> readPhasedKeyframes(TomlTable& table, const MeshSource& so
   std::vector<Keyframe> keyframes;
   for (TomlTable& entry : table.tables("keyframes")) {
     const std::string named = entry.text("file");
-    const fs::path file = source.in_memory
-                              ? matchingMeshes(entry, "file", *source.in_memory, named)[0]
-                          : fs::path(named).is_absolute() ? fs::path(named)
-                                                          : source.folder / named;
+    if (source.in_memory && !source.in_memory->contains(named))
+      entry.fail("file", fmt::format("no mesh in memory has the name {}", named));
+    const fs::path file =
+        source.in_memory || fs::path(named).is_absolute() ? fs::path(named) : source.folder / named;
     const double phase = entry.number("phase", std::nullopt, {.lo = 0, .hi = 1});
     if (phase == 1)
       entry.fail("phase",

@@ -50,6 +50,20 @@ void removeLines(const toml::key& key, const toml::node& value, std::string& tex
   text.erase(from, end - from);
 }
 
+// A key and its value between the braces of a table, with one comma.
+void removeInline(const toml::key& key, const toml::node& value, std::string& text) {
+  constexpr std::string_view kSpace = " \t";
+  std::size_t from = byteOf(text, key.source().begin), end = byteOf(text, value.source().end);
+  end = std::min(text.find_first_not_of(kSpace, end), text.size());
+  if (end < text.size() && text[end] == ',') {
+    end = std::min(text.find_first_not_of(kSpace, end + 1), text.size());
+  } else {
+    const std::size_t before = text.find_last_not_of(kSpace, from - 1);
+    if (before != std::string::npos && text[before] == ',') from = before;
+  }
+  text.erase(from, end - from);
+}
+
 // Below the header of the table, or with a header of its own at the end.
 void addKey(const toml::table& root, const std::string& table, const std::string& line,
             const std::string& key, const std::string& name, std::string& text) {
@@ -85,7 +99,8 @@ void apply(const TomlEdit& edit, const std::string& name, std::string& text) {
   if (parent)
     for (const auto& [key, value] : *parent) {
       if (key.str() != own) continue;
-      if (!edit.value) return removeLines(key, value, text);
+      if (!edit.value)
+        return parent->is_inline() ? removeInline(key, value, text) : removeLines(key, value, text);
       const std::size_t from = byteOf(text, value.source().begin);
       text.replace(from, byteOf(text, value.source().end) - from, *edit.value);
       return;

@@ -12,8 +12,10 @@
 #include <dcmtk/oflog/oflog.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -95,7 +97,8 @@ void takeRate(double hz, const char* source, Video& video) {
 
 void takeTimes(DcmDataset& data, Video& video) {
   constexpr std::size_t kMostSteps = 100000, kMostBeats = 1000;
-  takeRate(1e3 / numberOf(data, DCM_FrameTime), "DICOM FrameTime", video);
+  if (const double ms = numberOf(data, DCM_FrameTime); ms > 0)
+    takeRate(1e3 / ms, "DICOM FrameTime", video);
   const std::vector<double> steps_ms = numbersOf(data, DCM_FrameTimeVector, kMostSteps);
   double sum_ms = 0;
   for (std::size_t i = 1; i < steps_ms.size(); ++i) sum_ms += steps_ms[i];
@@ -104,8 +107,14 @@ void takeTimes(DcmDataset& data, Video& video) {
              video);
   takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
   takeHeartRate(data, video);
-  for (const double ms : numbersOf(data, DCM_RWaveTimeVector, kMostBeats))
-    video.r_waves_s.push_back(1e-3 * ms);
+  const std::vector<double> waves_ms = numbersOf(data, DCM_RWaveTimeVector, kMostBeats);
+  const bool ascending = std::adjacent_find(waves_ms.begin(), waves_ms.end(),
+                                            std::greater_equal<>()) == waves_ms.end();
+  if (!ascending || (!waves_ms.empty() && waves_ms.front() < 0)) {
+    video.notes.emplace_back("its RWaveTimeVector tag has no ascending times: not used");
+    return;
+  }
+  for (const double ms : waves_ms) video.r_waves_s.push_back(1e-3 * ms);
 }
 
 // At most 64 regions: a file may state any number of them.

@@ -70,6 +70,7 @@ struct Decoder {
   AVPacket* packet = nullptr;
   SwsContext* scaler = nullptr;
   int stream = -1;
+  bool unreadable = false;  // the file goes on, but cannot be read
   std::vector<std::uint8_t> rgb;
 
   ~Decoder() {
@@ -196,7 +197,10 @@ void Decoder::takeFrames(VideoBuilder& builder) {
 void Decoder::readAll(VideoBuilder& builder) {
   for (;;) {
     const int read = av_read_frame(format, packet);
-    if (read < 0) break;
+    if (read < 0) {
+      unreadable = read != AVERROR_EOF;
+      break;
+    }
     builder.checkTime();
     if (packet->stream_index == stream) {
       const int sent = avcodec_send_packet(codec, packet);
@@ -237,6 +241,9 @@ void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
   else if (stream.nb_frames > frames)
     builder.video().notes.push_back(fmt::format(
         "it is cut off: {} of the {} frames in its header are present", frames, stream.nb_frames));
+  else if (decoder.unreadable)
+    builder.video().notes.push_back(
+        fmt::format("it cannot be read beyond frame {}: it may be cut off", frames));
 }
 
 }  // namespace echocine

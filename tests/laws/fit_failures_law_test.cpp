@@ -85,6 +85,11 @@ TEST(FitFailures, NumbersThatNoLoopHasAreRefusedByName) {
     side.heart_rate_bpm = bad;
     EXPECT_TRUE(refusal(side).starts_with("heart_rate_bpm: is")) << bad;
   }
+  for (const std::vector<double>& waves : {std::vector{0.9, 0.4}, {0.4, 0.4}}) {
+    SideOptions side;
+    side.r_waves_s = waves;
+    EXPECT_TRUE(refusal(side).starts_with("r_waves_s: are not in order"));
+  }
   EchoLoop real = support::draw(support::Phantom{}, {}, 5, 3);
   real.metres_per_pixel = kNan;
   EXPECT_THROW(ModelDiscrepancy(real, {}, support::Phantom{}.model()), SceneError);

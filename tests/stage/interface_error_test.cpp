@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "metrics/interface_error.h"
 #include "scene/scan_geometry.h"
@@ -55,6 +56,23 @@ TEST(InterfaceError, AFlatWallNeedsNoManyLines) {
   InterfaceError error;
   error.add(mapOf(probeOf(5, 1 << 20), wall), truth);
   EXPECT_LT(error.rms_m(), 1e-6);
+}
+
+// A circle around a full-turn probe, whose lines close: the sagitta again, at the seam too.
+TEST(InterfaceError, AFullTurnClosesAtItsSeam) {
+  const auto turnOf = [](int lines, int samples) {
+    Probe probe = probeOf(lines, samples);
+    probe.kind = ProbeKind::radial;
+    probe.first_angle_rad = -std::numbers::pi;
+    probe.last_angle_rad = std::numbers::pi;
+    return probe;
+  };
+  const auto circle = [](double) { return 0.1; };
+  InterfaceError error;
+  error.add(mapOf(turnOf(12, 1 << 20), circle), mapOf(turnOf(996, 1000), circle));
+  const double sagitta = 0.1 * (1 - std::cos(std::numbers::pi / 12));
+  EXPECT_LT(error.percentile95_m(), sagitta);
+  EXPECT_NEAR(error.rms_m(), std::sqrt(8.0 / 15) * sagitta, 0.01 * sagitta);
 }
 
 // An arc of radius r drawn by chords of N lines: the sagitta r (1 - cos(d/2)) at most.

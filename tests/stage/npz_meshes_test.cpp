@@ -179,6 +179,9 @@ TEST_F(NpzKeyframes, CreasesAndCornersAreThoseOfAnObjFile) {
   bad.pop_back();
   expectRefused(bad, "has creases without crease_sharpness");
   bad = arrays;
+  bad.erase(bad.begin() + 4);
+  expectRefused(bad, "has crease_sharpness without creases");
+  bad = arrays;
   bad[4].npy = npy<std::int64_t>("i", '<', false, {2, 2}, {4, 0, 4, 5});
   expectRefused(bad, "creases has the row (4, 5), accepted: edges of a face");
   bad = arrays;

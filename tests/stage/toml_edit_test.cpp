@@ -40,6 +40,22 @@ TEST(TomlEdit, AddsAndRemovesKeys) {
   EXPECT_EQ(edited("probe.lines", std::nullopt), kText);
 }
 
+TEST(TomlEdit, RemovesAKeyOfAnInlineTableAlone) {
+  const std::string text = "probe = { view = \"plax\", lines = 64 , depth_mm = 120 }\ngain = 3\n";
+  for (const char* key : {"view", "lines", "depth_mm"}) {
+    const std::string name = std::string("probe.") + key;
+    auto values = flatValues(text, "");
+    values.erase(name);
+    EXPECT_EQ(flatValues(withEdits(text, {{name, std::nullopt}}, ""), ""), values) << key;
+  }
+  const std::string none = withEdits(text,
+                                     {{"probe.view", std::nullopt},
+                                      {"probe.depth_mm", std::nullopt},
+                                      {"probe.lines", std::nullopt}},
+                                     "");
+  EXPECT_EQ(flatValues(none, "").at("gain"), "3") << none;
+}
+
 TEST(TomlEdit, AnEditAndItsReverseGiveTheTextBack) {
   const std::string there = edited("probe.depth_mm", "12");
   EXPECT_EQ(withEdits(there, {{"probe.depth_mm", "160"}}, ""), kText);

@@ -13,6 +13,7 @@
 #include <tuple>
 
 #include "core/hash.h"
+#include "echo/beat_length.h"
 #include "echo/read_loop.h"
 #include "motion/surfaces/probe_placement.h"
 #include "render/render.h"
@@ -99,6 +100,28 @@ TEST_F(DicomLoopFile, IsALoopOfItsOwnForTheComparison) {
   const nlohmann::json summary = nlohmann::json::parse(bytesOf(folder / "out/summary.json"));
   EXPECT_LT(summary.at("discrepancy").get<double>(), 1e-4);
   EXPECT_EQ(summary.at("time").at("shift_frames").get<double>(), 0);
+}
+
+// The user's word comes before the file's, except where a render states its geometry.
+TEST_F(DicomLoopFile, OptionsOverrideItsTags) {
+  const double metres_per_pixel = pictureGeometry(render(dicomScene(), "loop")).metres_per_pixel;
+  const auto file = folder / "loop/cine.dcm";
+  echo::SideOptions side;
+  side.heart_rate_bpm = 90;
+  const echo::EchoLoop faster = echo::readLoop(file, side, true);
+  EXPECT_NEAR(echo::beatOf(faster).frames, 16 * 60 / 90.0, 1e-9);
+  EXPECT_EQ(echo::beatOf(faster).source, "--heart-rate");
+  side = {};
+  side.pixel_aspect = 1.25;  // the tags belong to the pixels before the stretch
+  const echo::EchoLoop stretched = echo::readLoop(file, side, true);
+  EXPECT_EQ(stretched.scale_source, "DICOM regions");
+  EXPECT_NEAR(stretched.metres_per_pixel.value_or(0), metres_per_pixel / std::sqrt(1.25), 1e-9);
+  for (const bool scale : {true, false}) {
+    side = {};
+    if (scale) side.mm_per_pixel = 0.3;
+    if (!scale) side.pixel_aspect = 1.1;
+    EXPECT_THROW(echo::readLoop(folder / "loop", side, false), SceneError);
+  }
 }
 
 // R waves count from the first frame of the file, and those before it are not in the file.

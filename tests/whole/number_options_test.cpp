@@ -53,6 +53,18 @@ TEST_F(HostileArguments, AFractionOfABeatAMinuteIsAHeartRate) {
   EXPECT_EQ(runShell("%B compare --help").out.find("FLOAT:INT"), std::string::npos);
 }
 
+TEST_F(HostileArguments, OptionsOfAnotherModeAreRefused) {
+  const std::string out = " -o" + in("out");
+  expectRefused("compare a" + out + " --scan ef=0.5:0.6:0.1 --contours", "--contours");
+  expectRefused("compare a" + out + " --scan ef=0.5:0.6:0.1 --synthetic-scale 0.3",
+                "--synthetic-scale");
+  expectRefused("compare a" + out + " --views all --knots 1,9", "--knots");
+  expectRefused("compare a b" + out + " --view a4c", "--view");
+  expectRefused("dataset --join a b" + out + " --merge", "--join");
+  expectRefused("dataset --status a --task 1/2", "--status");
+  expectRefused("dataset a" + out + " --diff b --slurm", "--diff");
+}
+
 TEST_F(HostileArguments, PipesLinksToThemselvesAndFoldersAreNoFiles) {
   writeBall(folder, ballScene(2));
   ASSERT_EQ(::mkfifo((folder / "pipe").c_str(), 0600), 0);
