@@ -73,7 +73,7 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
   CLI::Option* state =
       command->add_option("--status", status_, "Print the state of a dataset's folder");
   CLI::Option* difference = command->add_option(
-      "--diff", other_spec_, "Print the keys that differ between this spec and another one");
+      "--diff", other_spec_, "Print the keys that differ from another spec or folder");
   CLI::Option* joining =
       command
           ->add_option("--join", joined_,
