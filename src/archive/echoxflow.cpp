@@ -199,7 +199,11 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
                                 {"timestamps/2d_brightness_mode", {t}, loop.times_s},
                                 {"timestamps/tissue_doppler", {t}, loop.times_s},
                                 {"timestamps/ecg", {ecg_s.size()}, ecg_s}};
-  const std::string role = loop.contour_m.empty() ? "" : roleOf(loop.view);
+  // A plane without muscle beside the cavity has no strain.
+  const bool annotated =
+      !loop.contour_m.empty() && std::all_of(loop.strain_percent.begin(), loop.strain_percent.end(),
+                                             [](float percent) { return std::isfinite(percent); });
+  const std::string role = annotated ? roleOf(loop.view) : "";
   if (!role.empty()) {
     arrays.push_back({"data/" + role + "_contour", {t, kContourPoints, 2}, loop.contour_m});
     arrays.push_back({"data/" + role + "_curve", {t}, loop.strain_percent});

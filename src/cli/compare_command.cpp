@@ -194,7 +194,7 @@ void CompareCommand::needOneLoop(const char* option) const {
     throw SceneError(fmt::format("{}: takes only the real loop; omit the synthetic one", option));
   if (!options_.scene.empty())
     throw SceneError(fmt::format("{}: uses its own hearts; omit --scene", option));
-  // Of the comparison of two loops.
+  // These options compare two loops.
   for (const CLI::Option* other : command_->get_options()) {
     const std::string name = other->get_name();
     const bool of_two = name.starts_with("--synthetic-") || name == "--contours" ||

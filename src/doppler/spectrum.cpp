@@ -26,6 +26,8 @@ namespace {
 constexpr int kBins = 128, kLeastWindow = 4;
 constexpr double kMostSpectrumPulses = 1 << 17;
 
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
 // The samples of the volume along its line.
 struct Volume {
   int line = 0, first = 0, end = 0;
@@ -137,10 +139,9 @@ void addColumn(const Pulses& pulses, const Span& window, Spectrum& spectrum) {
   std::complex<double> r1;
   for (std::size_t n = window.first; n + 1 < window.end; ++n)
     for (std::size_t k = 0; k < samples; ++k) r1 += pulses[n][k] * std::conj(pulses[n + 1][k]);
-  spectrum.mean_m_s.push_back(-spectrum.nyquist_m_s * std::arg(r1) / std::numbers::pi);
+  spectrum.mean_m_s.push_back(r1 == 0.0 ? kNone
+                                        : -spectrum.nyquist_m_s * std::arg(r1) / std::numbers::pi);
 }
-
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 // Mean over the tissue of the volume.
 double tissueVelocity(const Simulator& simulator, const FrameTime& time, const Volume& volume) {
@@ -183,7 +184,8 @@ void findPeaks(const Simulator& simulator, Spectrum& spectrum) {
   if (!valves) return;
   for (std::size_t t = 0; t < spectrum.times.size(); ++t) {
     if (spectrum.times[t].beat != 0 || spectrum.times[t].phase > valves->aortic_closes) break;
-    spectrum.mean_peak = std::max(spectrum.mean_peak, spectrum.mean_m_s[t]);
+    if (!std::isnan(spectrum.mean_m_s[t]))
+      spectrum.mean_peak = std::max(spectrum.mean_peak, spectrum.mean_m_s[t]);
     if (!std::isnan(spectrum.exact_m_s[t]))
       spectrum.exact_peak = std::max(spectrum.exact_peak, spectrum.exact_m_s[t]);
   }

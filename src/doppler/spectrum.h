@@ -38,7 +38,7 @@ struct Spectrum {
   double depth_m = 0, nyquist_m_s = 0;
   std::vector<FrameTime> times;
   std::vector<float> power;      // relative to I_S
-  std::vector<double> mean_m_s;  // by (D2) over the window and the volume
+  std::vector<double> mean_m_s;  // by (D2) over the window and the volume; NaN without a signal
   // By mesh: of a ring, its point in the plane; else the mean over the volume's tissue, NaN
   // without.
   std::vector<double> exact_m_s;

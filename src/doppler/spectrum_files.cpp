@@ -53,10 +53,11 @@ std::vector<std::byte> spectrumExr(const Spectrum& s, double prf_hz, double step
 }
 
 std::string spectrumCsv(const Spectrum& s) {
+  const auto shown = [](double v) { return std::isnan(v) ? "" : fmt::format("{:.6f}", v); };
   std::string text = "time_s,phase,velocity_m_s,exact_m_s\n";
   for (std::size_t t = 0; t < s.times.size(); ++t)
-    text += fmt::format("{},{},{:.6f},{}\n", s.times[t].time_s, s.times[t].phase, s.mean_m_s[t],
-                        std::isnan(s.exact_m_s[t]) ? "" : fmt::format("{:.6f}", s.exact_m_s[t]));
+    text += fmt::format("{},{},{},{}\n", s.times[t].time_s, s.times[t].phase, shown(s.mean_m_s[t]),
+                        shown(s.exact_m_s[t]));
   return text;
 }
 

@@ -76,7 +76,7 @@ std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& o
 void writeFound(const FittedFiles& made, heart::View view, const fs::path& folder,
                 const fs::path& heart) {
   std::error_code error;
-  // Of an earlier, stopped fit: they describe another heart.
+  // Results of a stopped fit describe another heart.
   for (const char* name : kFitFiles) fs::remove(folder / name, error);
   fs::remove_all(heart, error);  // newHeart() found none, or that of a stopped fit
   if (made.fit.ef)

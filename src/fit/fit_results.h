@@ -11,7 +11,7 @@
 
 namespace echocine::fit {
 
-// What writeFit() writes.
+// Files of writeFit().
 inline constexpr std::initializer_list<const char*> kFitFiles{"fit.json", "curves.csv", "fit.html"};
 
 // fit.json: result, dials, views with poses, rivals, hints, assumptions. curves.csv: the volume of

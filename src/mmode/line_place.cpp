@@ -78,10 +78,13 @@ std::optional<double> placeGiven(const Probe& probe, std::optional<double> angle
 
 int lineAt(const Probe& probe, double place, const char* option) {
   const ScanGeometry geometry(probe);
-  if (probe.lines == 1) return 0;
-  const double line = (place - geometry.firstPlace()) / geometry.cellWidth();
-  if (geometry.fullTurn()) return geometry.nearestLine(std::remainder(line, probe.lines));
-  if (line >= -0.5 && line <= probe.lines - 0.5) return geometry.nearestLine(line);
+  if (probe.lines > 1) {
+    const double line = (place - geometry.firstPlace()) / geometry.cellWidth();
+    if (geometry.fullTurn()) return geometry.nearestLine(std::remainder(line, probe.lines));
+    if (line >= -0.5 && line <= probe.lines - 0.5) return geometry.nearestLine(line);
+  } else if (place >= geometry.firstPlace() && place <= geometry.lastPlace()) {
+    return 0;
+  }
   const auto shown = [&](double at) {
     return geometry.angular() ? degreesFromRadians(at) : millimetresFromMetres(at);
   };

@@ -17,6 +17,7 @@
 #include "scene/names.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
+#include "signal/signal_chain.h"
 #include "truth/frame_truth.h"
 
 namespace echocine {
@@ -81,15 +82,15 @@ Column makeColumn(const Simulator& simulator, const FrameTime& time, int line, i
                   double white, std::optional<MModeTarget> target) {
   const Probe& probe = simulator.scene().probe;
   const std::shared_ptr<Workspace> w = simulator.workspace();
-  const LineRange only{line, line + 1};
+  const LineRange some = simulator.chain().greysFrom({line, line + 1});
   const auto first = static_cast<std::ptrdiff_t>(line) * probe.samples,
              last = first + probe.samples;
   Column column;
-  simulator.make(time, {.still = true, .counted = false, .persists = false, .lines = only}, *w);
+  simulator.make(time, {.still = true, .counted = false, .persists = false, .lines = some}, *w);
   column.intensities.assign(w->polar.intensities.begin() + first,
                             w->polar.intensities.begin() + last);
   simulator.make(
-      time, {.traced = true, .still = true, .persists = false, .lines = only, .white = white}, *w);
+      time, {.traced = true, .still = true, .persists = false, .lines = some, .white = white}, *w);
   column.greys.assign(w->greys.begin() + first, w->greys.begin() + last);
   const FrameTruth truth = simulator.truthAt(time, w.get());
   column.borders = crossings(truth.contours, lineGeometry(probe, line), probe, number);
@@ -199,7 +200,7 @@ MMode makeMMode(const Simulator& simulator, const MModeRequest& request, const M
   mode.line = chosenLine(simulator, request);
   mode.samples = probe.samples;
   const ScanGeometry geometry(probe);
-  mode.place = probe.lines == 1 ? geometry.firstPlace()
+  mode.place = probe.lines == 1 ? 0.5 * (geometry.firstPlace() + geometry.lastPlace())
                                 : geometry.firstPlace() + mode.line * geometry.cellWidth();
   const std::optional<double> white = simulator.referenceIntensity(monitor, {});
   if (!white) throw Stopped();

@@ -15,7 +15,8 @@ class EdgeEnhancement {
  public:
   EdgeEnhancement(const Probe& probe, const SignalSettings& settings);
 
-  void apply(std::span<float> greys) const;  // line-major; runs in parallel
+  void apply(std::span<float> greys) const;      // line-major; runs in parallel
+  int halfLines() const { return half_lines_; }  // on either side, that a line depends on
 
  private:
   int lines_, samples_, half_lines_, half_samples_;

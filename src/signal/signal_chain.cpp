@@ -140,6 +140,13 @@ void SignalChain::addFields(double white, double time_s, LineRange lines, EchoFi
   fields_.addTo(field, white * intensityFromDecibels(-settings_.pictureGain_db()), time_s, lines);
 }
 
+LineRange SignalChain::greysFrom(LineRange lines) const {
+  if (!edges_) return lines;
+  if (turn_) return all_lines_;
+  return {std::max(lines.first - edges_->halfLines(), all_lines_.first),
+          std::min(lines.end + edges_->halfLines(), all_lines_.end)};
+}
+
 Greys SignalChain::compress(Intensities&& intensities, double reference_intensity, double time_s,
                             const EchoField& field) const {
   const double white = reference_intensity * intensityFromDecibels(-settings_.pictureGain_db());

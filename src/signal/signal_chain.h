@@ -48,6 +48,10 @@ class SignalChain {
   // Adds clutter and noise of an instant to the field of some lines; `white` is the loop's.
   void addFields(double white, double time_s, LineRange lines, EchoField& field) const;
 
+  // The lines whose intensities compress() needs for these grey levels: edge enhancement looks at
+  // neighbours.
+  LineRange greysFrom(LineRange lines) const;
+
   // Clutter, noise and log compression against the loop's single reference; noise is that of the
   // instant. field: of the same intensities, empty without speckle. The grey levels reuse the
   // intensities' memory.

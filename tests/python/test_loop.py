@@ -140,6 +140,13 @@ def test_valve_times_of_a_part_of_a_beat_are_those_of_the_beat(heart, tmp_path):
     assert len(times[0]) == 4 and times[1] == pytest.approx(times[0], abs=1e-6)
 
 
+def test_a_loop_keeps_the_scene_it_was_made_from(scene):
+    changed = scene.copy()
+    loop = echocine.render(changed, frames=(0, 1))
+    changed["probe.depth_mm"] = 77
+    assert loop.scene["probe.depth_mm"] == scene["probe.depth_mm"]
+
+
 def test_a_part_of_a_loop_stays_a_part(scene, tmp_path):
     part = echocine.render(scene, frames=(1, 3))
     assert echocine.export(part, tmp_path / "part.gif").frames == 2

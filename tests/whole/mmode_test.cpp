@@ -35,11 +35,13 @@ TEST(MMode, AColumnIsTheLineOfAStillFrame) {
   for (const Way& way : {Way{"paper", "paper", "auto", "auto", "1", ""},
                          Way{"scanner", "scanner", "auto", "off", "1", ""},
                          Way{"persistence", "portable", "auto", "off", "1", ""},
+                         Way{"edges", "sharp", "auto", "off", "1", ""},
                          Way{"hierarchy", "paper", "embree", "off", "1", "[speckle]\non = true\n"},
                          Way{"bent beams", "paper", "auto", "on", "4", "[speckle]\non = true\n"}}) {
     SCOPED_TRACE(way.name);
     SceneText text = ball();
     text.signal["look"] = "\"" + way.look + "\"";
+    if (way.name == "edges") text.probe["lines"] = "96";  // so that the window has neighbours
     text.accuracy["tracer"] = "\"" + way.tracer + "\"";
     text.accuracy["rays_per_beam"] = way.rays;
     text.effects["refraction"] = "\"" + way.refraction + "\"";
@@ -211,6 +213,14 @@ TEST(MMode, RefusesWhatItCannotShowInOneLine) {
   EXPECT_NE(refusal("--rate nan").find("--rate"), std::string::npos);
   EXPECT_NE(refusal("--through mitral-tips").find("role lv_"), std::string::npos);
   refusal("--through nowhere");
+  SceneText text = ball();
+  text.probe["lines"] = "1";
+  writeBall(folder, text);
+  EXPECT_NE(refusal("--angle 85").find("outside the sector"), std::string::npos);
+  const Outcome one =
+      runShell("%B mmode '" + scene + "' -o '" + (folder / "one").string() + "' --rate 10 --quiet");
+  ASSERT_EQ(one.code, 0) << one.err;
+  EXPECT_NE(bytesOf(folder / "one/mmode.json").find("\"angle_deg\": 0.0"), std::string::npos);
   refusal("--angle 0 --through mitral-tips");
 }
 

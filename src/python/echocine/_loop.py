@@ -398,7 +398,7 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
         if kind not in _TRUTH:
             raise SceneError(f"truth: \"{kind}\" is not a kind of truth, accepted: {', '.join(_TRUTH)}")
     if not kinds:
-        return scene
+        return scene.copy()  # later changes of the scene are not those of the loop
     asked = scene.copy()
     changes: Dict[str, Any] = {}
     files = [k for k in kinds if k not in ("displacement", "velocity", "velocity_beam")]
