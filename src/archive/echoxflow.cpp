@@ -185,6 +185,8 @@ void checkEchoXFlow(const Scene& scene, const fs::path& root, const std::string&
 
 void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::string& exam,
                     const std::string& recording) {
+  refuseName("--exam", exam);
+  refuseName("--recording", recording);
   checkEchoXFlow(loop.scene, root, exam, recording);
   const auto t = static_cast<std::size_t>(loop.frames), z = static_cast<std::size_t>(loop.samples),
              x = static_cast<std::size_t>(loop.lines);

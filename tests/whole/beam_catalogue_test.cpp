@@ -23,6 +23,8 @@ TEST(BeamCatalogue, ADamagedCatalogueLeavesTheRecording) {
   const TempFolder folder;
   const fs::path root = folder / "root", zarr = root / "exam/loop.zarr";
   writeEchoXFlow(loop, root, "exam", "loop");
+  EXPECT_THROW(writeEchoXFlow(loop, root, "", "loop"), SceneError);
+  EXPECT_THROW(writeEchoXFlow(loop, root, "exam", ""), SceneError);
   const std::string chunk = bytesOf(zarr / ".zattrs");
   folder.write("root/croissant.json", "[]");
   EXPECT_THROW(writeEchoXFlow(smallBeamLoop(9), root, "exam", "loop"), SceneError);
