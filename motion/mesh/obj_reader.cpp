@@ -23,7 +23,8 @@ class ObjParser {
       text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
       ++line_number_;
       if (line.ends_with('\r')) line.remove_suffix(1);
-      if (line.ends_with('\\')) {
+      const bool is_continued = line.ends_with('\\') && line.find('#') == line.npos;
+      if (is_continued) {
         joined.append(line.substr(0, line.size() - 1)).append(" ");
       } else if (joined.empty()) {
         statement(line);
@@ -32,6 +33,7 @@ class ObjParser {
         joined.clear();
       }
     }
+    if (!joined.empty()) statement(joined);
     tags_.joinTo(mesh_);
     return std::move(mesh_);
   }

@@ -110,6 +110,15 @@ TEST(MotionMeshIo, ObjStatementsThatDoNotConcernTheShapeAreSkipped) {
   EXPECT_EQ(mesh.triangles[0], (Triangle{0, 1, 2}));
 }
 
+// A comment may end in a backslash, as a path does, and a file in a line that would go on.
+TEST(MotionMeshIo, ObjLinesAreContinuedByABackslashOutsideComments) {
+  const TriangleMesh mesh = parseObj(
+      "# exported from C:\\hearts\\\nv 0 0 0\nv 1 0 \\\n0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 2 4 \\");
+  EXPECT_EQ(mesh.positions.size(), 4u);
+  EXPECT_EQ(mesh.positions[1].x, 1);
+  EXPECT_EQ(mesh.triangles.size(), 2u);
+}
+
 TEST(MotionMeshIo, ObjPolygonsBecomeFansAndNegativeNumbersCountBack) {
   const TriangleMesh mesh = parseObj("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf -4 -3 -2 -1\n");
   ASSERT_EQ(mesh.triangles.size(), 2u);
