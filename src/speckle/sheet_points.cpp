@@ -33,6 +33,15 @@ double areaOf(const Triangle& t, const std::vector<Vec3f>& at) {
   return 0.5 * static_cast<double>(length(cross(at[t[1]] - at[t[0]], at[t[2]] - at[t[0]])));
 }
 
+// Fewer scatterers follow from a lower value of the key.
+void refuseTooManyOnStrands(double planned, const std::string& key, const Scene& scene) {
+  if (planned <= kMostPoints) return;
+  throw SceneError(fmt::format(
+      "{} needs over {:g} scatterers at {:g} MHz and {:g} cycles, the memory limit: use a lower "
+      "value, a lower probe.frequency_mhz or longer pulses",
+      key, kMostPoints, 1e-6 * scene.probe.frequency_hz, scene.signal.pulse_cycles));
+}
+
 }  // namespace
 
 SheetPoints::SheetPoints(const Scene& scene, const MeshMotion& motion, double reference_phase,
@@ -92,6 +101,9 @@ void SheetPoints::draw(const SurfaceTopology& sheet, const std::vector<Vec3f>& p
 // Evenly spaced along each chord at rest, uniform over its section's circumscribed ball.
 void SheetPoints::drawOnChords(const Scene& scene, double apart_m) {
   const std::vector<Chordae::Chord>& chords = valves_.chordae->chords();
+  double planned = 0;
+  for (const Chordae::Chord& chord : chords) planned += chord.length_m / apart_m;
+  refuseTooManyOnStrands(planned, "leaflets.chordae_mm", scene);
   const auto radius_m = static_cast<float>(0.5 * scene.leaflets.chordae_m);
   for (std::uint32_t c = 0; c < chords.size(); ++c) {
     const auto count = static_cast<std::uint32_t>(std::ceil(chords[c].length_m / apart_m));
@@ -114,6 +126,10 @@ void SheetPoints::drawOnRings(const Scene& scene, double per_m3) {
   const double per_m =
       per_m3 * std::numbers::pi * valves_.rings->radius() * valves_.rings->radius();
   const std::vector<ValveRings::Stretch>& stretches = valves_.rings->stretches();
+  double planned = 0;
+  for (const ValveRings::Stretch& stretch : stretches) planned += per_m * stretch.length_m;
+  refuseTooManyOnStrands(
+      planned, fmt::format("leaflets.annulus_mm = {:g}", 1e3 * scene.leaflets.annulus_m), scene);
   for (std::uint32_t s = 0; s < stretches.size(); ++s) {
     const auto count = static_cast<std::uint32_t>(
         per_m * stretches[s].length_m + uniformFromHash(hashOf(scene.speckle.seed, kRingCount, s)));

@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "core/error.h"
 #include "frame/simulator.h"
 #include "motion/heart/heart.h"
 #include "motion/heart/heart_scene.h"
@@ -89,6 +90,20 @@ void expectSound(const std::map<std::string, double>& dials) {
     for (std::size_t s = 0; s < before.size(); ++s)
       ASSERT_LT(length(sections[s].middle_m - before[s].middle_m), 8e-3f) << phase;
     before = sections;
+  }
+}
+
+// Scatterers of rings grow with the cube of the frequency.
+TEST(ValveRingLaw, MoreScatterersThanMemoryIsMeantForAreRefused) {
+  Scene scene = heartWith({}, 10e-3);
+  scene.probe.frequency_hz = 60e6;
+  scene.signal.pulse_cycles = 1;
+  try {
+    const Simulator simulator(scene);
+    FAIL();
+  } catch (const SceneError& error) {
+    EXPECT_TRUE(std::string(error.what()).starts_with("leaflets.annulus_mm = 10 needs over"))
+        << error.what();
   }
 }
 
