@@ -37,6 +37,11 @@ void refuseName(const char* option, const std::string& name) {
                                  option, name));
 }
 
+void refuseProbe(const Probe& probe) {
+  if (probe.kind != ProbeKind::phased)
+    throw SceneError("EchoXFlow stores sectors of phased probes; use the layout zea");
+}
+
 // Readers accept finite numbers only: 0 where no motion is defined.
 std::vector<float> finiteOf(const std::vector<float>& values) {
   std::vector<float> out = values;
@@ -144,7 +149,7 @@ bool hasText(const Json& object, const char* key, const std::string& text) {
 }
 
 // The catalogue with the row in place of an earlier one.
-Json with(const Json& row, Json catalogue) {
+Json catalogueWith(const Json& row, Json catalogue) {
   Json* records = nullptr;
   for (Json& set : catalogue["recordSet"])
     if (hasText(set, "@id", "recordings")) records = &set;
@@ -178,8 +183,7 @@ void checkEchoXFlow(const Scene& scene, const fs::path& root, const std::string&
                     const std::string& recording) {
   if (!exam.empty()) refuseName("--exam", exam);
   if (!recording.empty()) refuseName("--recording", recording);
-  if (scene.probe.kind != ProbeKind::phased)
-    throw SceneError("EchoXFlow stores sectors of phased probes; use the layout zea");
+  refuseProbe(scene.probe);
   catalogueIn(root / kCatalogue);
 }
 
@@ -187,7 +191,7 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
                     const std::string& recording) {
   refuseName("--exam", exam);
   refuseName("--recording", recording);
-  checkEchoXFlow(loop.scene, root, exam, recording);
+  refuseProbe(loop.scene.probe);
   const auto t = static_cast<std::size_t>(loop.frames), z = static_cast<std::size_t>(loop.samples),
              x = static_cast<std::size_t>(loop.lines);
   const std::vector<std::uint8_t> greys = bytesOfGreys(loop);
@@ -215,8 +219,10 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
   double limit = kLeastLimit_m_s;
   for (const float v : velocities) limit = std::max(limit, std::abs(static_cast<double>(v)));
 
-  makeFolder(root / exam);
+  makeFolder(root);
   const FolderLock lock(root);
+  const Json catalogue = catalogueIn(root / kCatalogue);
+  makeFolder(root / exam);
   const fs::path store = root / exam / (recording + ".zarr"),
                  part = root / exam / ("." + recording + ".zarr.part");
   std::error_code ignored;
@@ -224,9 +230,8 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
   writeZarr(part, {{"recording_manifest", manifestOf(loop, limit, role)}}, arrays);
   unstoppable([&] {
     syncAllOf(part);
-    const std::string text = with(rowOf(arrays, exam, recording, medianStep(loop.times_s)),
-                                  catalogueIn(root / kCatalogue))
-                                 .dump(1);
+    const Json row = rowOf(arrays, exam, recording, medianStep(loop.times_s));
+    const std::string text = catalogueWith(row, catalogue).dump(1);
     place(part, store);
     writeFileWhole(root / kCatalogue, std::as_bytes(std::span(text)));
   });

@@ -134,8 +134,9 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
       ->add_option("--sbatch", sbatch_,
                    "With --slurm: more options for sbatch, such as \"--partition=cpu\"")
       ->needs(slurm);
-  difference->excludes(state)->excludes(joining);
-  for (CLI::Option* other : {state->excludes(joining), difference, joining})
+  difference->excludes(state);
+  joining->excludes(state)->excludes(difference);
+  for (CLI::Option* other : {state, difference, joining})
     other->excludes(task)->excludes(merge)->excludes("--preview")->excludes(slurm);
   command->add_flag("--quiet", quiet_, "Print errors only");
   command->footer("Example: echocine dataset examples/datasets/smoke.toml -o smoke\n" +

@@ -31,9 +31,10 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 // The samples of the volume along its line.
 struct Volume {
   int line = 0, first = 0, end = 0;
+  double depth_m = 0;  // of its middle
 };
 
-Volume volumeAt(const Simulator& simulator, const SpectrumRequest& request, Spectrum& spectrum) {
+Volume volumeAt(const Simulator& simulator, const SpectrumRequest& request) {
   const Probe& probe = simulator.scene().probe;
   const ScanGeometry geometry(probe);
   Volume volume;
@@ -46,20 +47,19 @@ Volume volumeAt(const Simulator& simulator, const SpectrumRequest& request, Spec
           fmt::format("--through {}: the imaging plane does not show it; use a view that does",
                       nameOf(*at.through)));
     volume.line = lineThrough(probe, *point, *at.through);
-    spectrum.depth_m = geometry.pathOf(*point);
+    volume.depth_m = geometry.pathOf(*point);
   } else {
     volume.line = lineAt(probe, at.place.value_or(0), geometry.angular() ? "--angle" : "--offset");
-    spectrum.depth_m = *at.depth_m;
+    volume.depth_m = *at.depth_m;
   }
   const auto sampleAt = [&](double depth_m) {
     return static_cast<int>(std::floor((depth_m - probe.min_depth_m) / probe.sampleSpacing()));
   };
   volume.first =
-      std::clamp(sampleAt(spectrum.depth_m - 0.5 * request.volume_m), 0, probe.samples - 1);
-  volume.end = std::clamp(sampleAt(spectrum.depth_m + 0.5 * request.volume_m), volume.first,
+      std::clamp(sampleAt(volume.depth_m - 0.5 * request.volume_m), 0, probe.samples - 1);
+  volume.end = std::clamp(sampleAt(volume.depth_m + 0.5 * request.volume_m), volume.first,
                           probe.samples - 1) +
                1;
-  spectrum.line = volume.line;
   return volume;
 }
 
@@ -103,23 +103,17 @@ Pulses receive(const Simulator& simulator, double prf_hz, const Volume& volume, 
   return pulses;
 }
 
-// The pulses of one column: `first` to `end`, of `length` from `begin` on, which may lie before the
-// loop or end after it.
-struct Span {
-  std::ptrdiff_t begin;
-  int length;
-  std::size_t first, end;
-};
-
-// (D5).
-void addColumn(const Pulses& pulses, const Span& window, Spectrum& spectrum) {
+// (D5), of the pulses of a window that begins at one of them. It may begin before the loop or end
+// after it.
+void addColumn(const Pulses& pulses, std::ptrdiff_t begin, int length, Spectrum& spectrum) {
+  const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(begin, 0)),
+             end = std::min(static_cast<std::size_t>(begin + length), pulses.size());
   std::vector<double> powers(kBins, 0.0);
   const std::size_t samples = pulses.front().size();
   double squares = 0;
   std::vector<double> taper;
-  for (std::size_t n = window.first; n < window.end; ++n) {
-    const double at =
-        (static_cast<double>(static_cast<std::ptrdiff_t>(n) - window.begin) + 0.5) / window.length;
+  for (std::size_t n = first; n < end; ++n) {
+    const double at = (static_cast<double>(static_cast<std::ptrdiff_t>(n) - begin) + 0.5) / length;
     taper.push_back(0.5 - 0.5 * std::cos(2 * std::numbers::pi * at));
     squares += taper.back() * taper.back();
   }
@@ -127,9 +121,9 @@ void addColumn(const Pulses& pulses, const Span& window, Spectrum& spectrum) {
     const double per_pulse = std::numbers::pi * (2 * (b + 0.5) / kBins - 1);
     for (std::size_t k = 0; k < samples; ++k) {
       std::complex<double> sum;
-      for (std::size_t n = window.first; n < window.end; ++n)
-        sum += taper[n - window.first] * pulses[n][k] *
-               std::polar(1.0, -per_pulse * static_cast<double>(n));
+      for (std::size_t n = first; n < end; ++n)
+        sum +=
+            taper[n - first] * pulses[n][k] * std::polar(1.0, -per_pulse * static_cast<double>(n));
       powers[static_cast<std::size_t>(b)] += std::norm(sum);
     }
   }
@@ -137,7 +131,7 @@ void addColumn(const Pulses& pulses, const Span& window, Spectrum& spectrum) {
     spectrum.power.push_back(
         static_cast<float>(squares > 0 ? power / squares / static_cast<double>(samples) : 0));
   std::complex<double> r1;
-  for (std::size_t n = window.first; n + 1 < window.end; ++n)
+  for (std::size_t n = first; n + 1 < end; ++n)
     for (std::size_t k = 0; k < samples; ++k) r1 += pulses[n][k] * std::conj(pulses[n + 1][k]);
   spectrum.mean_m_s.push_back(r1 == 0.0 ? kNone
                                         : -spectrum.nyquist_m_s * std::arg(r1) / std::numbers::pi);
@@ -207,20 +201,14 @@ Scene spectrumScene(Scene scene, const DopplerRequest& request, const SpectrumRe
            millimetresFromMetres(scene.probe.max_depth_m), "mm");
   scene = dopplerScene(std::move(scene), request);
   if (!spectrum.at.through) return scene;
-  std::vector<Role> roles{Role::lv_cavity, Role::lv_wall};
-  if (spectrum.at.through == MModeTarget::mitral_tips) roles.push_back(Role::mitral_valve);
-  for (const Role role : roles)
-    if (!structureOf(scene, role))
-      throw SceneError(fmt::format("--through {}: no structure has the role {}; set role",
-                                   nameOf(*spectrum.at.through), nameOf(role)));
+  refuseWithoutRoles(scene, *spectrum.at.through);
   scene.truth.contours = scene.truth.function = true;
   return scene;
 }
 
 void checkSpectrum(const Simulator& simulator, const DopplerRequest& request,
                    const SpectrumRequest& spectrum) {
-  Spectrum unused;
-  volumeAt(simulator, spectrum, unused);
+  volumeAt(simulator, spectrum);
   pulseCount(simulator, request.prf_hz);
 }
 
@@ -230,7 +218,9 @@ Spectrum makeSpectrum(const Simulator& simulator, const DopplerRequest& request,
   Spectrum spectrum;
   spectrum.bins = kBins;
   spectrum.nyquist_m_s = nyquistVelocity(scene.probe, request.prf_hz);
-  const Volume volume = volumeAt(simulator, wanted, spectrum);
+  const Volume volume = volumeAt(simulator, wanted);
+  spectrum.line = volume.line;
+  spectrum.depth_m = volume.depth_m;
   const Pulses pulses = receive(simulator, request.prf_hz, volume, white, monitor);
   const int length =
       std::max(kLeastWindow, static_cast<int>(std::lround(wanted.window_s * request.prf_hz)));
@@ -239,11 +229,8 @@ Spectrum makeSpectrum(const Simulator& simulator, const DopplerRequest& request,
     const double time_s = t * wanted.step_s;
     const std::ptrdiff_t middle = std::lround(time_s * request.prf_hz);
     if (middle >= count) break;
-    const std::ptrdiff_t first = middle - length / 2;
-    const Span window{first, length, static_cast<std::size_t>(std::max<std::ptrdiff_t>(first, 0)),
-                      static_cast<std::size_t>(std::min(first + length, count))};
     spectrum.times.push_back(instantOf(simulator.cardiacClock(), scene, time_s));
-    addColumn(pulses, window, spectrum);
+    addColumn(pulses, middle - length / 2, length, spectrum);
     checkpoint();
   }
   spectrum.columns = static_cast<int>(spectrum.times.size());

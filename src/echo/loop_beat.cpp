@@ -38,17 +38,20 @@ BeatLength beatOf(const EchoLoop& loop) {
     beat.source = source;
   };
   const Video& v = loop.video;
-  if (v.heart_rate_bpm && v.rate.trusted && v.heart_rate_source.starts_with("--"))
-    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
+  const bool has_rate = v.heart_rate_bpm && v.rate.trusted,
+             is_given = v.heart_rate_source.starts_with("--");
+  const auto byRate = [&] { known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source); };
+  if (has_rate && is_given)
+    byRate();
   else if (loop.frames_per_beat > 0)
     known(loop.frames_per_beat, "manifest");
   else if (v.r_waves_s.size() > 1 && v.rate.hz > 0)
     known(beatOfRWaves(v.r_waves_s, beat.frames / v.rate.hz).mean * v.rate.hz, "R waves");
-  else if (loop.ecg && loop.ecg->beat_frames > 0 && !v.heart_rate_source.starts_with("--"))
+  else if (loop.ecg && loop.ecg->beat_frames > 0 && !is_given)
     beat = {beatOfRWaves(loop.ecg->r_frames, beat.frames).median, loop.ecg->confidence,
             loop.beat_anchor, beat.dissimilarity};
-  else if (v.heart_rate_bpm && v.rate.trusted)
-    known(60 / *v.heart_rate_bpm * v.rate.hz, v.heart_rate_source);
+  else if (has_rate)
+    byRate();
   return beat;
 }
 

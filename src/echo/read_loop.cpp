@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
@@ -18,10 +17,6 @@
 namespace echocine::echo {
 
 namespace {
-
-bool areAscending(const std::vector<double>& times) {
-  return std::adjacent_find(times.begin(), times.end(), std::greater_equal<>()) == times.end();
-}
 
 constexpr double kAspectNoted = 0.03, kAspectRefused = 0.12;  // our choice
 

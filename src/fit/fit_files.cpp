@@ -11,6 +11,7 @@
 #include "fit/caveats.h"
 #include "fit/fit_results.h"
 #include "fit/packed_bytes.h"
+#include "fit/results_folder.h"
 #include "output/heart_files.h"
 
 namespace echocine::fit {
@@ -75,9 +76,8 @@ std::string digestOf(const std::vector<FitLoop>& loops, const HeartFitOptions& o
 
 void writeFound(const FittedFiles& made, heart::View view, const fs::path& folder,
                 const fs::path& heart) {
+  const ResultsFolder emptied(folder, kFitFiles);  // a stopped fit's results are of another heart
   std::error_code error;
-  // Results of a stopped fit describe another heart.
-  for (const char* name : kFitFiles) fs::remove(folder / name, error);
   fs::remove_all(heart, error);  // newHeart() found none, or that of a stopped fit
   if (made.fit.ef)
     writeHeart({.parameters = heart::parametersFrom(made.fit.dials), .view = view}, heart);

@@ -18,12 +18,6 @@ double samePlace(int line, const Probe& from, const Probe& to) {
   return t * (to.lines - 1);
 }
 
-// Lines of a full turn close; others end.
-int lineAt(const Probe& probe, double place) {
-  const int line = static_cast<int>(place), lines = probe.lines;
-  return probe.isFullTurn() ? (line + lines) % lines : std::clamp(line, 0, lines - 1);
-}
-
 double sampleCentre(const Probe& probe, double depth_m) {
   const double k = std::floor((depth_m - probe.min_depth_m) / probe.sampleSpacing());
   return probe.min_depth_m +
@@ -66,11 +60,12 @@ InterfaceMap interfaceMap(const Probe& probe, const std::vector<LineTrace>& trac
 }
 
 void InterfaceError::add(const InterfaceMap& setting, const InterfaceMap& reference) {
+  const ScanGeometry scanned(setting.probe);
   for (std::size_t i = 0; i < reference.lines.size(); ++i) {
     const int line = static_cast<int>(i);
     const double place = samePlace(line, reference.probe, setting.probe);
     const double before = std::floor(place);
-    const int left = lineAt(setting.probe, before), right = lineAt(setting.probe, before + 1);
+    const int left = scanned.nearestLine(before), right = scanned.nearestLine(before + 1);
     for (const InterfacePlace& p : reference.lines[i]) {
       const Vec3d truth = pointAt(reference.probe, line, p.depth_m);
       const std::optional<Vec3d> a = drawn(setting, left, p);

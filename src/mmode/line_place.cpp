@@ -45,6 +45,14 @@ std::optional<Vec3d> hingeOf(const std::optional<RingFrame>& ring,
 
 }  // namespace
 
+void refuseWithoutRoles(const Scene& scene, MModeTarget target) {
+  for (const Role role : {Role::lv_cavity, Role::lv_wall, Role::mitral_valve})
+    if ((role != Role::mitral_valve || target == MModeTarget::mitral_tips) &&
+        !structureOf(scene, role))
+      throw SceneError(fmt::format("--through {}: no structure has the role {}; set role",
+                                   nameOf(target), nameOf(role)));
+}
+
 std::optional<Vec3d> targetIn(const FrameTruth& truth, const Scene& scene, MModeTarget target) {
   if (!truth.function) return {};
   const FunctionFrame& function = *truth.function;

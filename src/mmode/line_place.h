@@ -36,6 +36,10 @@ constexpr bool isRing(MModeTarget target) {
          target == MModeTarget::tricuspid_lateral;
 }
 
+// Throws SceneError if the scene has no structure of a role that the target needs: those of the
+// heart's function, and the valve for its tips.
+void refuseWithoutRoles(const Scene& scene, MModeTarget target);
+
 // The target in the imaging plane, m, from the truth of one frame (function and contours). None if
 // the plane does not cut the valve.
 std::optional<Vec3d> targetIn(const FrameTruth& truth, const Scene& scene, MModeTarget target);

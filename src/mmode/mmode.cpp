@@ -34,13 +34,6 @@ void refuseRate(const Scene& scene, double rate_hz) {
       rate_hz, std::floor(most_hz), millimetresFromMetres(scene.probe.max_depth_m)));
 }
 
-// Roles that the function of the heart, and with it a target, needs.
-void refuseWithout(const Scene& scene, Role role, MModeTarget target) {
-  if (structureOf(scene, role)) return;
-  throw SceneError(fmt::format("--through {}: no structure has the role {}; set role",
-                               nameOf(target), nameOf(role)));
-}
-
 struct Column {
   std::vector<float> intensities, greys;
   std::vector<BorderCrossing> borders;
@@ -172,11 +165,7 @@ std::optional<RingMotion> ringMotion(const std::vector<Column>& columns, const M
 
 Scene mmodeScene(Scene scene, const MModeRequest& request) {
   refuseRate(scene, request.rate_hz);
-  if (request.through)
-    for (const Role role : {Role::lv_cavity, Role::lv_wall})
-      refuseWithout(scene, role, *request.through);
-  if (request.through == MModeTarget::mitral_tips)
-    refuseWithout(scene, Role::mitral_valve, *request.through);
+  if (request.through) refuseWithoutRoles(scene, *request.through);
   scene.acquisition.rolling = false;
   scene.artefacts.persistence = 0;
   scene.output.channels.clear();

@@ -15,7 +15,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <mutex>
 #include <vector>
 
@@ -108,9 +107,7 @@ void takeTimes(DcmDataset& data, Video& video) {
   takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
   takeHeartRate(data, video);
   const std::vector<double> waves_ms = numbersOf(data, DCM_RWaveTimeVector, kMostBeats);
-  const bool ascending = std::adjacent_find(waves_ms.begin(), waves_ms.end(),
-                                            std::greater_equal<>()) == waves_ms.end();
-  if (!ascending || (!waves_ms.empty() && waves_ms.front() < 0)) {
+  if (!areAscending(waves_ms) || (!waves_ms.empty() && waves_ms.front() < 0)) {
     video.notes.emplace_back("its RWaveTimeVector tag has no ascending times: not used");
     return;
   }

@@ -1,7 +1,9 @@
 #pragma once
 // A loop as read: grey frames, and the information in its file.
 
+#include <algorithm>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -34,7 +36,7 @@ struct Video {
   FrameRate rate;
   std::optional<double> heart_rate_bpm;
   std::string heart_rate_source;  // "--heart-rate", "DICOM HeartRate", "DICOM NominalInterval"
-  std::vector<double> r_waves_s;  // from the first frame, by the file's tags
+  std::vector<double> r_waves_s;  // from the first frame, by the file's tags; ascending
   std::vector<UltrasoundRegion> regions;
   std::vector<int> repeats;        // frames that repeat the previous one
   std::vector<std::string> notes;  // anomalies found while reading, a line each
@@ -46,5 +48,11 @@ struct Video {
     return false;
   }
 };
+
+// True if each number is above the one before it.
+inline bool areAscending(const std::vector<double>& numbers) {
+  return std::adjacent_find(numbers.begin(), numbers.end(), std::greater_equal<>()) ==
+         numbers.end();
+}
 
 }  // namespace echocine

@@ -397,9 +397,9 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
     for kind in kinds:
         if kind not in _TRUTH:
             raise SceneError(f"truth: \"{kind}\" is not a kind of truth, accepted: {', '.join(_TRUTH)}")
+    asked = scene.copy()  # later changes of the scene are not those of the loop
     if not kinds:
-        return scene.copy()  # later changes of the scene are not those of the loop
-    asked = scene.copy()
+        return asked
     changes: Dict[str, Any] = {}
     files = [k for k in kinds if k not in ("displacement", "velocity", "velocity_beam")]
     if files:
