@@ -41,17 +41,32 @@ Contraction contractionBy(const Parameters& parameters) {
   return contraction;
 }
 
+double taperOf(const Parameters& parameters) {
+  return parameters.conicity ? std::log(*parameters.conicity / outlineConicity()) : 0;
+}
+
+double girthOf(double volume_m3, double length_m, const OutlineSize& outline) {
+  return std::sqrt(volume_m3 / (std::pow(length_m, 3) * outline.volume));
+}
+
 }  // namespace
+
+// Volume = length^3 girth^2 outline.volume; sphericity = 2 girth outline.widest.
+double sphericityOf(const Parameters& parameters) {
+  if (!parameters.lv_length_mm) return parameters.sphericity;
+  const OutlineSize outline = outlineSize(taperOf(parameters));
+  const double length_m = *parameters.lv_length_mm * kMillimetre;
+  return 2 * girthOf(parameters.edv_ml * kMillilitre, length_m, outline) * outline.widest;
+}
 
 LeftVentricle::LeftVentricle(const Parameters& parameters) : parameters_(parameters) {
   edv_m3_ = parameters.edv_ml * kMillilitre;
-  if (parameters.conicity) taper_ = std::log(*parameters.conicity / outlineConicity());
+  taper_ = taperOf(parameters);
   gradient_ = std::log(parameters.apical_motion);
-  // Volume = length^3 girth^2 outline.volume; sphericity = 2 girth outline.widest.
   const OutlineSize outline = outlineSize(taper_);
   if (parameters.lv_length_mm) {
     length_ = *parameters.lv_length_mm * kMillimetre;
-    girth_ = std::sqrt(edv_m3_ / (std::pow(length_, 3) * outline.volume));
+    girth_ = girthOf(edv_m3_, length_, outline);
   } else {
     girth_ = parameters.sphericity / (2 * outline.widest);
     length_ = std::cbrt(edv_m3_ / (girth_ * girth_ * outline.volume));

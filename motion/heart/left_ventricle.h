@@ -24,6 +24,9 @@ struct Contraction {
   std::array<double, kSegments> segments{};  // inward motion; 1: a healthy segment at end-systole
 };
 
+// Width over length of the cavity at end-diastole: the dial, or what the dial lv-length makes it.
+double sphericityOf(const Parameters& parameters);
+
 class LeftVentricle {
  public:
   // Its surfaces' meshes are geodesicSphere(kFrequency).

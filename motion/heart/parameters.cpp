@@ -135,6 +135,12 @@ Parameters parametersFrom(const std::map<std::string, double>& given) {
   return parameters;
 }
 
+std::string contradictionIn(const std::map<std::string, double>& given) {
+  return given.contains("lv-length") && given.contains("sphericity")
+             ? "lv-length and sphericity both set the width of the cavity, accepted: one of them"
+             : "";
+}
+
 std::string faultOf(const Parameters& parameters) {
   const Dial& scale = kDials[std::size(kDials) - 1];  // first: the others' defaults follow it
   if (!(parameters.body_scale >= scale.low && parameters.body_scale <= scale.high))

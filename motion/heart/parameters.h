@@ -84,6 +84,9 @@ inline constexpr double kMostRightEjected = 0.85;
 // excursion of the ring and twist the ejection fraction. Precondition: every key is a dial's.
 Parameters parametersFrom(const std::map<std::string, double>& given);
 
+// Empty, or why one of the given dials would have no effect.
+std::string contradictionIn(const std::map<std::string, double>& given);
+
 // Empty if every dial is within its range and no detectable contradiction exists; otherwise the
 // fault and the accepted values.
 std::string faultOf(const Parameters& parameters);

@@ -207,10 +207,11 @@ bool GroupFitter::letSlide(const std::vector<float>& nodes) {
   bool slides = false;
   const std::size_t columns = data_.columns;
   std::vector<double> miss(columns);
+  std::vector<float> factors(data_.samples.size(), 1.0f);
   for (std::size_t j = 0; j < data_.samples.size(); ++j) {
     const BorderPoint& point = points_[data_.points[j]];
     if (members_.owns(static_cast<std::uint32_t>(index(point.surface)))) continue;
-    LatticeSample& sample = data_.samples[j];
+    const LatticeSample& sample = data_.samples[j];
     for (std::size_t c = 0; c < columns; ++c)
       miss[c] = static_cast<double>(data_.values[j * columns + c]);
     for (std::size_t i = 0; i < 8; ++i)
@@ -220,8 +221,10 @@ bool GroupFitter::letSlide(const std::vector<float>& nodes) {
     for (const double m : miss) square_m2 += m * m / keyframes;
     const double factor = 1 / (1 + square_m2 / (kSlides_m * kSlides_m));
     slides |= factor < 0.5;
-    sample.weight *= static_cast<float>(factor);
+    factors[j] = static_cast<float>(factor);
   }
+  // The equations have the weights of before until they are updated.
+  for (std::size_t j = 0; slides && j < factors.size(); ++j) data_.samples[j].weight *= factors[j];
   return slides;
 }
 

@@ -1,6 +1,7 @@
 #include "motion/interior/motion_field.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <functional>
 #include <limits>
@@ -41,6 +42,11 @@ bool samePhases(const KeyframeWeights& a, const KeyframeWeights& b) {
   return std::equal(a.phases().begin(), a.phases().end(), b.phases().begin(), b.phases().end());
 }
 
+std::uint64_t nextNumber() {
+  static std::atomic<std::uint64_t> last = 0;
+  return ++last;
+}
+
 }  // namespace
 
 struct MotionField::State {
@@ -49,6 +55,7 @@ struct MotionField::State {
     GroupLattice lattice;
     double reach_across_m = 0;
   };
+  const std::uint64_t number_of_field = nextNumber();  // FieldFrame::field
   FieldSettings settings;
   FieldSpace space{};
   std::unique_ptr<TopSurfaces> tops;
@@ -270,6 +277,9 @@ void MotionField::at(double phase, FieldFrame& frame) const {
 void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) const {
   CHECK_EQ(part.size(), groupCount());
   frame.phase = phase;
+  // Nodes without a row are never written, so they must be 0 first: frames are reused.
+  const bool is_new = frame.field != state_->number_of_field;
+  frame.field = state_->number_of_field;
   frame.groups.resize(state_->groups.size());
   thread_local std::vector<std::vector<KeyframeWeights::Term>> terms;
   thread_local std::vector<Vec3f> sums_m;
@@ -281,7 +291,7 @@ void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) con
     const GroupLattice& lattice = state_->groups[g].lattice;
     GroupFrame& out = frame.groups[g];
     out.grid = lattice.grid;
-    out.displacement_m.resize(lattice.grid.empty() ? 0 : lattice.grid.count());
+    if (is_new) out.displacement_m.assign(lattice.grid.empty() ? 0 : lattice.grid.count(), Vec3f{});
     if (lattice.grid.empty() || !part[g]) continue;
     const auto [begin, end] = nodesWithin(lattice, *part[g]);
     sums_m.assign(end - begin, Vec3f{});

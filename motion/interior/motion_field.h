@@ -10,6 +10,7 @@
 // slide on one another elsewhere. Points of a surface, and of membranes always, are bound to their
 // triangle instead (bound_point.h).
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <span>
@@ -87,6 +88,7 @@ struct GroupFrame {
 // All groups at one phase, by GroupId. Reused without allocation.
 struct FieldFrame {
   double phase = 0;
+  std::uint64_t field = 0;  // the field that the groups are of; 0: none yet
   std::vector<GroupFrame> groups;
 
   const GroupFrame& operator[](GroupId group) const { return groups[index(group)]; }

@@ -16,7 +16,7 @@ struct Leaf {
   bool up;  // the face runs the edge from its lower vertex to the higher one
 };
 
-// Ascending by angle about the edge, from the first side's face.
+// Ascending by angle about the edge, from the first side's face that has an area.
 std::vector<Leaf> leavesAround(std::span<const Side> edge, std::span<const Triangle> triangles,
                                std::span<const Vec3d> positions) {
   const Vec3d a = positions[edge.front().key >> 32];
@@ -25,7 +25,13 @@ std::vector<Leaf> leavesAround(std::span<const Side> edge, std::span<const Trian
     const Vec3d third = positions[triangles[side.triangle()][(side.side % 3 + 2) % 3]] - a;
     return third - dot(third, along) * along;
   };
-  const Vec3d u = across(edge.front()), v = cross(along, u);
+  double widest = 0;
+  for (const Side& side : edge) widest = std::max(widest, length(across(side)));
+  constexpr double kFlat = 1e-6;  // of the widest face: its direction is rounding. Our choice
+  const auto from = std::find_if(edge.begin(), edge.end(), [&](const Side& side) {
+    return length(across(side)) > kFlat * widest;
+  });
+  const Vec3d u = across(from == edge.end() ? edge.front() : *from), v = cross(along, u);
   std::vector<Leaf> leaves;
   for (const Side& side : edge) {
     const Vec3d w = across(side);

@@ -55,10 +55,8 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
   if (asked.split) counts.parted = splitNonManifold(mesh, membrane);
   // Splitting changes the connections of sheets.
   if (asked.split && asked.orient) counts.turned += orientFaces(mesh, membrane);
-  if (asked.weld || asked.drop_degenerate || asked.split) {
-    const std::size_t gone = dropUnusedVertices(mesh);
-    counts.unused = gone - std::min(gone, counts.welded);
-  }
+  const std::size_t gone = dropUnusedVertices(mesh);
+  counts.unused = gone - std::min(gone, counts.welded);
   if (asked.fill_holes) counts.filled = fillHoles(mesh);
   return counts;
 }
@@ -91,6 +89,13 @@ void giveBack(RepairMesh& mesh, std::vector<KeyframeMesh>& keyframes) {
     keyframes[k].mesh.tags = std::move(mesh.tags[k]);
     keyframes[k].mesh.triangles = mesh.triangles;
   }
+}
+
+bool everyVertexIsUsed(const TriangleMesh& mesh) {
+  std::vector<char> used(mesh.positions.size(), 0);
+  for (const Triangle& t : mesh.triangles)
+    for (const std::uint32_t v : t) used[v] = 1;
+  return std::all_of(used.begin(), used.end(), [](char u) { return u != 0; });
 }
 
 // Do two faces anywhere have the same direction along their common edge?
@@ -128,8 +133,9 @@ std::string words(const RepairCounts& counts) {
 }  // namespace
 
 std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh>& keyframes) {
-  const bool winds = structure.membrane && windsBothWays(keyframes.front().mesh.triangles);
-  if (!structure.repair.any() && !winds) return "";
+  const TriangleMesh& first = keyframes.front().mesh;
+  const bool winds = structure.membrane && windsBothWays(first.triangles);
+  if (!structure.repair.any() && !winds && everyVertexIsUsed(first)) return "";
   checkSameConnectivity(structure, keyframes);
   RepairMesh mesh = takenFrom(keyframes);
   RepairCounts counts;
@@ -142,7 +148,7 @@ std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }
   giveBack(mesh, keyframes);
-  const std::string done = words(counts);
+  const std::string done = structure.repair.any() ? words(counts) : "";
   return done.empty()
              ? ""
              : atPlace(structure.place, fmt::format("{}: repaired: {}", structure.name, done));

@@ -11,9 +11,10 @@
 namespace echocine {
 
 // Welds, drops degenerate faces, orients, splits sheets and fills holes, in this order and as
-// requested, in all keyframes together. The faces of a membrane are always oriented consistently.
-// Returns a report line that starts with the structure's place; empty if nothing was repaired. A
-// valid mesh is unchanged. Throws SceneError like checkKeyframes if keyframes have different faces,
+// requested, in all keyframes together. The faces of a membrane are always oriented consistently,
+// and vertices without a face are always dropped: they are no part of the surface. Returns a report
+// line that starts with the structure's place; empty if no requested repair changed the meshes.
+// Throws SceneError like checkKeyframes if keyframes have different faces,
 // or the result is no surface. Precondition: at least one keyframe, of files that passed checkFile.
 std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh>& keyframes);
 

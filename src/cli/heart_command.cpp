@@ -111,6 +111,8 @@ int HeartCommand::run() {
     throw SceneError(fmt::format("--view: \"{}\" is not a view, accepted: {}", view_, viewList()));
   wanted_.view = *view;
   if (even_) wanted_.spacing = heart::KeyframeSpacing::even;
+  if (const std::string fault = heart::contradictionIn(given_); !fault.empty())
+    throw SceneError(fault);
   wanted_.parameters = heart::parametersFrom(given_);
   for (const std::string& segment : segments_) applySegment(segment, wanted_.parameters);
   wanted_.parameters.volumes_rule = rule_ == "volumes";

@@ -55,20 +55,21 @@ void missApex(double miss_m, const CavityMarks& marks, Pose& pose) {
   const Vec3d mitral = pose.fromWorld(marks.mitral), apex = pose.fromWorld(marks.apex);
   const double reach_m = std::abs(apex.z - mitral.z);
   if (miss_m == 0 || !(reach_m > 0)) return;
-  const double angle_rad = std::atan(miss_m / reach_m);
+  const double angle_rad = std::asin(std::clamp(miss_m / reach_m, -1.0, 1.0));
   const Vec3d about = pose.x_axis, pivot = pose.origin + mitral.z * pose.z_axis;
   turn(pose, about, angle_rad);
   pose.origin = pivot + turned(pose.origin - pivot, about, angle_rad);
 }
 
-// The operator's hand: shifted along the probe's axes, then turned about its apex.
+// The operator's hand: shifted along the probe's axes, then turned about its apex as by the scene
+// keys rotate_deg and tilt_deg of `probe`.
 void moveProbe(const Values& values, const CavityMarks& marks, Pose& pose) {
   missApex(1e-3 * numberAt(values, "offset.apex_miss_mm", 0), marks, pose);
   pose.origin = pose.origin + 1e-3 * numberAt(values, "offset.shift_lateral_mm", 0) * pose.x_axis +
                 1e-3 * numberAt(values, "offset.shift_elevation_mm", 0) * pose.y_axis +
                 1e-3 * numberAt(values, "offset.shift_depth_mm", 0) * pose.z_axis;
-  turn(pose, pose.x_axis, radiansFromDegrees(numberAt(values, "offset.tilt_deg", 0)));
-  turn(pose, pose.z_axis, radiansFromDegrees(numberAt(values, "offset.rotate_deg", 0)));
+  pose = turnedAndTilted(pose, radiansFromDegrees(numberAt(values, "offset.rotate_deg", 0)),
+                         radiansFromDegrees(numberAt(values, "offset.tilt_deg", 0)));
 }
 
 // Seeds that nobody named belong to the heart (what its tissue is) or to the view.
@@ -133,7 +134,23 @@ void straightenRays(const Values& all, Scene& scene) {
     scene.effects.refraction = Switch::off;
 }
 
-heart::Parameters parametersOf(const Values& values) {
+// Names of values of segments, in the order in which they are set.
+std::vector<std::string> segmentValues(const Spec& spec, const Values& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values)
+    if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
+      names.push_back(name);
+  const auto rank = [&](const std::string& name) {
+    const std::string rest = name.substr(kHeart.size() + kSegments.size());
+    const std::size_t segments = segmentsOf(rest.substr(0, rest.find('.'))).size();
+    return std::pair(spec.gives(name), -static_cast<int>(segments));
+  };
+  std::stable_sort(names.begin(), names.end(),
+                   [&](const std::string& a, const std::string& b) { return rank(a) < rank(b); });
+  return names;
+}
+
+heart::Parameters parametersOf(const Spec& spec, const Values& values) {
   std::map<std::string, double> dials;
   for (const auto& [name, value] : values)
     if (name.starts_with(kHeart) && !name.substr(kHeart.size()).starts_with(kSegments) &&
@@ -141,17 +158,16 @@ heart::Parameters parametersOf(const Values& values) {
       dials[name.substr(kHeart.size())] = numberIn(value).value();
   heart::Parameters parameters = heart::parametersFrom(dials);
   parameters.volumes_rule = values.count(kRule) > 0;
-  for (const auto& [name, value] : values)
-    if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
-      setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),
-                  numberIn(value).value(), parameters);
+  for (const std::string& name : segmentValues(spec, values))
+    setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),
+                numberIn(values.at(name)).value(), parameters);
   return parameters;
 }
 
 }  // namespace
 
-heart::ParametricHeart modelOf(const Values& values) {
-  const heart::Parameters parameters = parametersOf(values);
+heart::ParametricHeart modelOf(const Spec& spec, const Values& values) {
+  const heart::Parameters parameters = parametersOf(spec, values);
   if (const std::string fault = faultOf(parameters); !fault.empty()) throw SceneError(fault);
   return heart::ParametricHeart(parameters);
 }

@@ -7,8 +7,10 @@
 
 namespace echocine::dataset {
 
-// The heart of drawn dials. Throws SceneError for an impossible combination.
-heart::ParametricHeart modelOf(const Values& values);
+// The heart of drawn dials. A value of the spec replaces that of a population in its segments; of
+// two values for a segment, that of the smaller group counts. Throws SceneError for an impossible
+// combination.
+heart::ParametricHeart modelOf(const Spec& spec, const Values& values);
 
 // Adds the surroundings of a recorded heart for the drawn probe pose: chest wall and lungs yield to
 // the probe there.

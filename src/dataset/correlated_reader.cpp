@@ -41,9 +41,13 @@ void readCorrelated(TomlTable& file, Spec& spec) {
         return std::any_of(list.begin(), list.end(),
                            [&](const Parameter& p) { return p.name == name; });
       };
-      const bool known = has(spec.parameters) ||
-                         std::any_of(spec.populations.begin(), spec.populations.end(),
-                                     [&](const Population& p) { return has(p.parameters); });
+      // Segments of a built-in infarct are drawn jointly with its ejection fraction.
+      const bool of_segments = name.starts_with("heart.segments.");
+      const bool known =
+          has(spec.parameters) ||
+          std::any_of(spec.populations.begin(), spec.populations.end(), [&](const Population& p) {
+            return has(p.parameters) && !(p.group && of_segments);
+          });
       if (!known)
         table.fail("parameters",
                    fmt::format("\"{}\" is not drawn by itself in this spec, accepted: names "

@@ -17,11 +17,6 @@ std::uint64_t numberOf(std::string_view name) {
   return hash;
 }
 
-bool isGiven(const Spec& spec, const std::string& name) {
-  return std::any_of(spec.parameters.begin(), spec.parameters.end(),
-                     [&](const Parameter& p) { return p.name == name; });
-}
-
 struct Place {
   const Spec& spec;
   int heart, attempt, view;  // view -1: of the heart
@@ -83,7 +78,7 @@ void addIndexDraws(const Place& place, const Population& population, Values& val
   for (const Parameter& p : population.parameters)
     if (p.name.starts_with("heart.segments.")) {
       values["heart.rule"] = std::string("volumes");
-      if (!isGiven(place.spec, p.name))
+      if (!place.spec.gives(p.name))
         values[p.name] = p.distribution.quantile(infarctShare(place, p.name, drawn.ejection_score));
     }
 }

@@ -25,6 +25,10 @@ HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
   try {
     const MakeSummary made = makePart(one, {scratch, 1, 1, 1}, quiet);
     remove();
+    if (made.failed > 0)
+      throw JobError(
+          "the first heart, which is made to estimate the cost, failed: make it without "
+          "--slurm and --preview for the reason");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     constexpr double kMegabyte = 1 << 20;
     return {passed.count(), static_cast<double>(made.bytes), peakMemory_bytes() / kMegabyte};

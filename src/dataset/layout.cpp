@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/beam_profile.h"
+#include "scene/scan_geometry.h"
 #include "truth/plane_labels.h"
 
 namespace echocine::dataset {
@@ -25,9 +26,10 @@ bool isShown(const LoopSample& loop, Vec3f place_m) {
   const Probe& probe = loop.scene.probe;
   const auto x = static_cast<double>(place_m.x), z = static_cast<double>(place_m.z);
   if (!inScanArea(probe, x, z)) return false;
+  const ScanGeometry geometry(probe);
   const double half_m =
-      0.5 * elevationBeamWidth(z, probe.elevation_aperture_m, probe.elevation_focus_m,
-                               kScannerSpeed / probe.frequency_hz);
+      0.5 * elevationBeamWidth(geometry.pathOf({x, 0, z}), probe.elevation_aperture_m,
+                               probe.elevation_focus_m, geometry.wavelength());
   return std::abs(static_cast<double>(place_m.y)) <= half_m;
 }
 

@@ -198,7 +198,7 @@ void addUserLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, He
 }
 
 void addLoops(const Spec& spec, const Draw& draw, const Monitor& monitor, Heart& made) {
-  const heart::ParametricHeart model = modelOf(draw.values);
+  const heart::ParametricHeart model = modelOf(spec, draw.values);
   heart::Recording recording;
   const MarksAt marks_at = [&](const Simulator&, double phase) {
     return marksOf(recording, phase);

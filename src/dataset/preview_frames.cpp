@@ -38,7 +38,7 @@ std::pair<Instant, Instant> extremesOf(const Simulator& simulator) {
 
 Scene drawnScene(const Spec& spec, const Draw& draw, std::size_t view) {
   if (!spec.scenes.empty()) return sceneOf(spec, draw, view);
-  const heart::ParametricHeart model = modelOf(draw.values);
+  const heart::ParametricHeart model = modelOf(spec, draw.values);
   heart::Recording recording = recordBeat(model, spec.views[view], spec.keyframes);
   surroundProbe(spec, draw, view, model, recording);
   return sceneOf(spec, draw, view, model.parameters(), recording);

@@ -142,6 +142,15 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
 }
 
 // Has the record all views and layouts of the spec?
+// Each loop has the view of its place in the spec, as far as both go.
+bool inOrder(const Json& loops, const Spec& spec) {
+  for (std::size_t v = 0; v < std::min(loops.size(), spec.views.size()); ++v)
+    if (const Json& loop = loops[v];
+        loop.is_object() && loop.contains("view") && loop["view"] != keyOf(spec.views[v]))
+      return false;
+  return true;
+}
+
 bool isOutgrown(const Json& record, const Spec& spec) {
   if (!record.contains("loops") || !record.contains("layouts")) return false;
   const Json &loops = record["loops"], &layouts = record["layouts"];
@@ -150,7 +159,7 @@ bool isOutgrown(const Json& record, const Spec& spec) {
       std::any_of(spec.layouts.begin(), spec.layouts.end(), [&](const std::string& layout) {
         return std::find(layouts.begin(), layouts.end(), layout) == layouts.end();
       });
-  return (!loops.empty() && loops.size() < spec.views.size()) || lacks;
+  return (!loops.empty() && loops.size() < spec.views.size()) || lacks || !inOrder(loops, spec);
 }
 
 }  // namespace

@@ -45,13 +45,15 @@ const UserScene& Spec::sceneOf(int heart) const {
   return scenes[static_cast<std::size_t>(heart) % scenes.size()];
 }
 
+bool Spec::gives(std::string_view parameter) const {
+  return std::any_of(parameters.begin(), parameters.end(),
+                     [&](const Parameter& p) { return p.name == parameter; });
+}
+
 std::vector<Parameter> Spec::parametersOf(const Population& population) const {
   std::vector<Parameter> all = parameters;
-  for (const Parameter& one : population.parameters) {
-    const bool given = std::any_of(parameters.begin(), parameters.end(),
-                                   [&](const Parameter& p) { return p.name == one.name; });
-    if (!given) all.push_back(one);
-  }
+  for (const Parameter& one : population.parameters)
+    if (!gives(one.name)) all.push_back(one);
   std::sort(all.begin(), all.end(),
             [](const Parameter& a, const Parameter& b) { return a.name < b.name; });
   return all;

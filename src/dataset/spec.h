@@ -80,7 +80,8 @@ struct Spec {
   bool has(std::string_view layout) const;
   bool wants(std::string_view truth_kind) const;
   bool hasExactEf(std::string_view layout) const;
-  bool wantsTracks() const;  // as truth, or for a layout
+  bool wantsTracks() const;                      // as truth, or for a layout
+  bool gives(std::string_view parameter) const;  // for all hearts
   // Splits by the order of hearts in their block: train, then validation, then test. Hearts are
   // independent draws, and some loaders split by number. All draws of one user's scene are in one
   // split.

@@ -170,7 +170,7 @@ void writeTables(const DatasetFacts& facts, std::span<const Json> records,
                {"version", ECHOCINE_VERSION}, {"spec_sha256", facts.digest},
                {"layouts", facts.layouts},    {"counts", counts}};
   dataset.update(facts.origin);
-  sink.write("dataset.json", dataset.dump(1) + "\n");
+  sink.write("dataset.json", dataset.dump(1, ' ', false, Json::error_handler_t::replace) + "\n");
   writeCard(facts, records, counts, sink);
 }
 

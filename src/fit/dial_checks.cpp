@@ -118,6 +118,15 @@ void checkPose(const FitPose& pose) {
   if (pose.systole != 0) checkNumber("systole", pose.systole, kEarliestSystole, kLatestSystole);
 }
 
+void checkStarts(const std::vector<FitPose>& starts) {
+  if (starts.empty()) throw SceneError("starts: contains no pose, accepted: one or more");
+  for (const FitPose& start : starts) {
+    checkPose(start);
+    if (start.lag != starts.front().lag || start.systole != starts.front().systole)
+      throw SceneError("starts: have different lags or systoles, accepted: the same in all");
+  }
+}
+
 void checkWeights(const FitWeights& weights) {
   const double sum = weights.region + weights.boundary + weights.motion;
   if (!(weights.region >= 0 && weights.boundary >= 0 && weights.motion >= 0 && sum > 0 &&

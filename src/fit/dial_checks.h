@@ -50,6 +50,8 @@ inline constexpr int kMostLag = 1000;
 inline constexpr double kEarliestSystole = 0.05, kLatestSystole = 0.95;  // or 0: that of the stack
 // Throws SceneError for a pose beyond the limits, or with a number that is not finite.
 void checkPose(const FitPose& pose);
+// The same for starts of a search. Throws also without any, or for different times.
+void checkStarts(const std::vector<FitPose>& starts);
 
 // Throws SceneError unless all are finite and from 0 up, and one is above 0.
 void checkWeights(const FitWeights& weights);

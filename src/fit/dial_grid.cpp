@@ -49,6 +49,8 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
   const auto steps = [&](const ScanPoint& p, std::size_t a) {
     return (p.values[a] - grid.points[grid.best].values[a]) / axes[a].step;
   };
+  std::size_t fewest = 3;  // values of an axis: two of them have no curvature
+  for (const ScanAxis& axis : axes) fewest = std::min(fewest, axis.values().size());
   cv::Mat rows(0, static_cast<int>(unknowns), CV_64F), right(0, 1, CV_64F);
   for (const ScanPoint& p : grid.points) {
     cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
@@ -65,7 +67,7 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
     rows.push_back(row);
     right.push_back(p.found.discrepancy);
   }
-  if (rows.rows <= static_cast<int>(unknowns)) return;
+  if (rows.rows <= static_cast<int>(unknowns) || fewest < 3) return;
   cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
   if (!cv::solve(rows, right, x, cv::DECOMP_SVD) || !cv::checkRange(x)) return;
   int at = 1 + static_cast<int>(n);

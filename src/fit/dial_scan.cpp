@@ -45,7 +45,7 @@ std::vector<ScanAxis> parseScan(const std::string& text) {
                   numberOf("--scan", numbers[2])};
     checkDial("--scan", dial, axis.range.low);
     checkDial("--scan", dial, axis.range.high);
-    if (!(axis.step > 0 && axis.range.low + axis.step <= axis.range.high * (1 + 1e-9)))
+    if (!(axis.step > 0 && axis.step <= (axis.range.high - axis.range.low) * (1 + 1e-9)))
       throw SceneError(fmt::format(
           "--scan: {} must go up by a step of at most its range, such as ef=0.3:0.75:0.05", part));
     for (const ScanAxis& other : axes)
@@ -68,7 +68,8 @@ std::map<std::string, double> parseDials(const std::string& text) {
           "--dials: \"{}\" is not accepted: DIAL=VALUE, such as hr=72,wall-thickness=11", part));
     const double value = numberOf("--dials", sides[1]);
     checkDial("--dials", dialOf("--dials", sides[0]), value);
-    out[sides[0]] = value;
+    if (!out.emplace(sides[0], value).second)
+      throw SceneError(fmt::format("--dials: {} is given twice", sides[0]));
   }
   return out;
 }

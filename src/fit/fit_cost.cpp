@@ -7,7 +7,7 @@
 #include "core/parallel.h"
 #include "core/units.h"
 #include "fit/searched_dials.h"
-#include "motion/heart/wall_place.h"
+#include "motion/heart/left_ventricle.h"
 
 namespace echocine::fit {
 
@@ -26,7 +26,10 @@ PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
   const heart::Parameters parameters = heart::parametersFrom(dials);
   PriorDials out{};
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] = dialOf("dials", kPriorDials[i]).get(parameters).value_or(heart::outlineConicity());
+    out[i] =
+        kPriorDials[i] == std::string_view("sphericity")
+            ? heart::sphericityOf(parameters)
+            : dialOf("dials", kPriorDials[i]).get(parameters).value_or(heart::outlineConicity());
   return out;
 }
 
@@ -39,8 +42,9 @@ FitCost::FitCost(std::vector<FitSide> sides, const std::map<std::string, double>
   dials_ = unknowns_.size();
   constexpr double kTiltStep_deg = 2.5, kRotateStep_deg = 4;
   for (std::size_t v = 0; tilts_ && v < sides_.size(); ++v) {
-    unknowns_.push_back({"tilt", -tilt_deg, tilt_deg, kTiltStep_deg});
-    unknowns_.push_back({"rotate", -tilt_deg, tilt_deg, kRotateStep_deg});
+    // Differences need a step to both sides within the limits.
+    unknowns_.push_back({"tilt", -tilt_deg, tilt_deg, std::min(kTiltStep_deg, tilt_deg)});
+    unknowns_.push_back({"rotate", -tilt_deg, tilt_deg, std::min(kRotateStep_deg, tilt_deg)});
   }
 }
 

@@ -25,7 +25,7 @@ double jackknifeSd(const std::vector<double>& values) {
 }
 
 std::vector<double> resampledSds(const std::vector<FitSide>& sides, const FitCost& cost,
-                                 const FitPlace& best, double tilt_deg, int blocks,
+                                 const FitPlace& best, int blocks,
                                  const std::shared_ptr<FitJournal>& journal,
                                  const Monitor& monitor) {
   std::vector<std::vector<double>> values(cost.dials());
@@ -37,8 +37,8 @@ std::vector<double> resampledSds(const std::vector<FitSide>& sides, const FitCos
       parts.push_back(side.discrepancy->without(first, end));
       some.push_back({side.family, &parts.back(), side.look});
     }
-    const FitCost part(some, cost.fixed(), tilt_deg,
-                       {journal, fmt::format("without {} of {}", block, blocks)});
+    const FitCost part =
+        cost.with(std::move(some), {journal, fmt::format("without {} of {}", block, blocks)});
     const FitDescent found = descendFit(part, best, monitor);
     if (found.stopped) return {};
     for (std::size_t i = 0; i < values.size(); ++i) values[i].push_back(found.best.at[i]);

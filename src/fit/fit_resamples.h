@@ -21,7 +21,7 @@ double jackknifeSd(const std::vector<double>& values);
 // Descends from the best place once without each of `blocks` blocks of the pictures of every loop.
 // SD_J by dial; empty if the monitor stopped it. Precondition: checkResamples() and blocks > 0.
 std::vector<double> resampledSds(const std::vector<FitSide>& sides, const FitCost& cost,
-                                 const FitPlace& best, double tilt_deg, int blocks,
+                                 const FitPlace& best, int blocks,
                                  const std::shared_ptr<FitJournal>& journal,
                                  const Monitor& monitor);
 

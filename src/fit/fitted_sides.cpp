@@ -218,7 +218,9 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
                                    [](const ExpectedLook& look) { return look.greys.empty(); });
   if (looked && !found.stopped) found = polishFit(again, std::move(found), monitor);
   if (found.stopped) return std::nullopt;
-  for (std::size_t i = 0; i < cost.dials(); ++i) out.error.push_back(found.best.at[i] - best.at[i]);
+  for (std::size_t i = 0; i < again.dials(); ++i)
+    if (const FitUnknown& u = again.unknowns()[i]; !u.held)
+      out.error[u.name] = found.best.at[i] - best.at[i];
   // With the dials that the fit finds: maps of the real loops have the same bias.
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop model = own.modelAt(v, cost, found.best);

@@ -54,7 +54,8 @@ struct FittedSides {
 // A fit of the best heart's own rendered loops.
 struct OwnFit {
   std::vector<OwnSight> sight;  // by view
-  std::vector<double> error;    // found minus rendered, by dial
+  // Found minus rendered, by dial. Those of heart::SectionShape are held, so they have none.
+  std::map<std::string, double> error;
   // By view: the heart that the fit finds in its own loop, against this loop; then against kTwins
   // own loops, the first included. They have the bias of the fit.
   std::vector<FitReport> report;

@@ -27,13 +27,13 @@ namespace {
 
 std::vector<DialRange> rangesOf(const HeartFitOptions& options, std::size_t views) {
   const auto keys = options.searched.value_or(dialsSearchedIn(views, options.ownLook(views)));
+  if (options.searched) checkSearched(*options.searched);
   std::vector<DialRange> out;
   std::string accepted;
   for (const SearchedDial& dial : searchedDials()) {
     accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
     if (std::find(keys.begin(), keys.end(), dial.range.key) != keys.end() &&
-        !options.dials.contains(dial.range.key) &&
-        !(dial.range.key == kRightRatio && options.dials.contains("rv-edv")))
+        !isFixed(dial.range.key, options.dials))
       out.push_back(dial.range);
   }
   if (out.empty())
@@ -151,9 +151,10 @@ std::vector<double> middleOf(const std::vector<DialRange>& ranges) {
 }
 
 void keepPossible(const FitCost& cost, FitDescent& best, HeartFit& fit) {
-  if (makePossible(cost, best.best.at))
-    fit.hints.emplace_back(
-        "no heart has the dials of the best fit together: those of the nearest one are reported");
+  if (!makePossible(cost, best.best.at)) return;
+  best.best = cost.at(best.best.at, best.best.found);
+  fit.hints.emplace_back(
+      "no heart has the dials of the best fit together: those of the nearest one are reported");
 }
 
 // Fits the found heart's own rendered loops: regions, and the error of such a fit.
@@ -171,15 +172,14 @@ void compareWithOwnLoops(const FittedSides& sides, const FitCost& cost,
     fit.views[v].regions = regionFindings(fit.views[v].report, own->twins[v], floor);
     fit.views[v].own = std::move(own->report[v]);
   }
-  for (std::size_t i = 0; i < own->error.size(); ++i)
-    fit.own_error[cost.unknowns()[i].name] = own->error[i];
+  fit.own_error = std::move(own->error);
 }
 
 // Intervals that are no narrower than the spread over parts of the loops.
 void resample(const FittedSides& sides, const FitCost& cost, const HeartFitOptions& options,
               const Monitor& monitor, FitDescent& best, HeartFit& fit) {
-  const std::vector<double> sds = resampledSds(sides.refer(), cost, best.best, options.tilt_deg,
-                                               options.resamples, options.journal, monitor);
+  const std::vector<double> sds =
+      resampledSds(sides.refer(), cost, best.best, options.resamples, options.journal, monitor);
   fit.stopped = sds.empty();
   for (std::size_t i = 0; i < sds.size(); ++i) fit.resampled_sd[cost.unknowns()[i].name] = sds[i];
   widenBy(sds, best.covariance);

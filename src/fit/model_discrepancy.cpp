@@ -173,20 +173,14 @@ PoseFound ModelDiscrepancy::search(const ModelLoop& model) const {
 
 PoseFound ModelDiscrepancy::refine(const ModelLoop& model,
                                    const std::vector<FitPose>& starts) const {
-  if (starts.empty()) throw SceneError("starts: contains no pose, accepted: one or more");
-  for (const FitPose& start : starts) checkPose(start);
+  checkStarts(starts);
   return refinePose(model, *stack_, settings_.weights, settings_.limits, starts);
 }
 
 PoseFound ModelDiscrepancy::searchAlsoFrom(const ModelLoop& model,
                                            const std::vector<FitPose>& starts) const {
-  PoseFound out = search(model);
-  const PoseFound near = refine(model, starts);
-  if (!(near.discrepancy < out.discrepancy)) return out;
-  const double confidence = out.confidence;
-  out = near;
-  out.confidence = confidence;
-  return out;
+  checkStarts(starts);
+  return searchPose(model, *stack_, settings_.weights, settings_.limits, starts);
 }
 
 PoseFound ModelDiscrepancy::search(const Simulator& model) const {

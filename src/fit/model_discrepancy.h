@@ -46,8 +46,7 @@ class ModelDiscrepancy {
                    const ModelLoop& first, const FitSettings& settings = {});
 
   // The pose of lowest D, searched globally or near given poses, with its D and terms. Thread-safe.
-  // Throws SceneError without a start, or for one beyond the limits of checkPose(). Precondition:
-  // the model has kFitFrames frames.
+  // Throws SceneError like checkStarts(). Precondition: the model has kFitFrames frames.
   PoseFound search(const ModelLoop& model) const;
   PoseFound refine(const ModelLoop& model, const std::vector<FitPose>& starts) const;
   // Global search plus the given starts: no lower minimum near a start is missed.

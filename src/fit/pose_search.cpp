@@ -72,7 +72,7 @@ PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const 
   const SearchBox box = boxOf(limits, model.far_m);
   const FitPose held = starts.front();
   std::vector<Descent> from;
-  for (const FitPose& start : starts) from.push_back({unknownsOf(start)});
+  for (const FitPose& start : starts) from.push_back({box.clamped(unknownsOf(start))});
   const DiscrepancyAt fine(model, real, weights, held, kFine);
   const std::vector<Descent> hills =
       leastApart(descendAll(std::cref(fine), from, box), from.size());
@@ -86,8 +86,36 @@ PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const 
   return out;
 }
 
+namespace {
+
+// The lower one, with the optima of the other that stand apart from it among its rivals.
+PoseFound lowerOf(PoseFound found, PoseFound other) {
+  if (other.discrepancy < found.discrepancy) std::swap(found, other);
+  std::vector<std::pair<FitPose, double>> all = std::move(found.rivals);
+  all.emplace_back(other.pose, other.discrepancy);
+  all.insert(all.end(), other.rivals.begin(), other.rivals.end());
+  std::stable_sort(all.begin(), all.end(),
+                   [](const auto& a, const auto& b) { return a.second < b.second; });
+  found.rivals.clear();
+  for (const auto& rival : all) {
+    const Unknowns at = unknownsOf(rival.first);
+    if (standApart(unknownsOf(found.pose), at) &&
+        std::all_of(found.rivals.begin(), found.rivals.end(),
+                    [&](const auto& kept) { return standApart(unknownsOf(kept.first), at); }))
+      found.rivals.push_back(rival);
+  }
+  return found;
+}
+
+}  // namespace
+
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits) {
+  return searchPose(model, real, weights, limits, {});
+}
+
+PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
+                     const PoseLimits& limits, const std::vector<FitPose>& also) {
   const DiscrepancyAt coarse(model, real, weights, {}, kCoarse);
   std::vector<Descent> all = lattice(std::cref(coarse), boxOf(limits, model.far_m), {4, 4, 2, 2});
   constexpr std::size_t kStarts = 5;
@@ -97,6 +125,7 @@ PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const 
                    all.end(), [](const Descent& a, const Descent& b) { return a.value < b.value; });
   const double median = all[all.size() / 2].value;
   PoseFound out = refinePose(model, real, weights, limits, starts);
+  if (!also.empty()) out = lowerOf(std::move(out), refinePose(model, real, weights, limits, also));
   const double next = out.rivals.empty() ? median : out.rivals.front().second;
   out.confidence =
       confidenceOf(fitDiscrepancy(fitTerms(model, real, out.pose, kFine), weights), next, median);

@@ -33,8 +33,13 @@ struct PoseFound {
 // on the threads.
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits);
+// Also from given poses. If one of them leads to a lower discrepancy, the optima of the search are
+// its rivals.
+PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
+                     const PoseLimits& limits, const std::vector<FitPose>& also);
 
-// Starts only from given poses, for a model close to one of known pose.
+// Starts only from given poses, moved into the limits, for a model close to one of known pose.
+// Precondition: all have the same time, lag and systole.
 PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits, const std::vector<FitPose>& starts);
 

@@ -1,6 +1,10 @@
 #include "fit/searched_dials.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+
+#include "core/error.h"
 
 namespace echocine::fit {
 
@@ -32,6 +36,21 @@ std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look) {
     if (views > 2 && own_look && heart::isSectionDial(dial.range.key))
       keys.push_back(dial.range.key);
   return keys;
+}
+
+void checkSearched(const std::vector<std::string>& keys) {
+  std::string accepted;
+  for (const SearchedDial& dial : searchedDials())
+    accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
+  for (const std::string& key : keys)
+    if (std::none_of(searchedDials().begin(), searchedDials().end(),
+                     [&](const SearchedDial& dial) { return dial.range.key == key; }))
+      throw SceneError(fmt::format("searched: is \"{}\", accepted: {}", key, accepted));
+}
+
+bool isFixed(const std::string& key, const std::map<std::string, double>& dials) {
+  return dials.contains(key) || (key == kRightRatio && dials.contains("rv-edv")) ||
+         (key == "sphericity" && dials.contains("lv-length"));
 }
 
 void addFollowers(std::map<std::string, double>& dials) {

@@ -25,6 +25,13 @@ const std::vector<SearchedDial>& searchedDials();
 // without a polish do not find the minimum of so many dials.
 std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look);
 
+// Throws SceneError for a key that is not in searchedDials().
+void checkSearched(const std::vector<std::string>& keys);
+
+// Whether dials fix one of searchedDials(): by its own value, or by that of a dial which replaces
+// it.
+bool isFixed(const std::string& key, const std::map<std::string, double>& dials);
+
 // Adds dials that follow searched ones: the right atrium's volume the left one's. Replaces
 // kRightRatio by rv-edv, which is at least what ejects the stroke volume.
 void addFollowers(std::map<std::string, double>& dials);

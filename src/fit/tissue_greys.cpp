@@ -136,12 +136,17 @@ TissueGreys::Fit TissueGreys::fit() const {
   std::vector<int> group;
   int groups = 1;  // group 0 is blood
   for (const bool blood : blood_) group.push_back(blood ? 0 : groups++);
-  const auto some = std::find(blood_.begin(), blood_.end(), true);
+  // All blood has one grey, which a tissue has if it is seen.
+  const auto grey_of_blood = [&](const Fit& fit) {
+    for (std::size_t t = 0; t < blood_.size(); ++t)
+      if (blood_[t] && std::isfinite(fit.grey[t])) return fit.grey[t];
+    return std::numeric_limits<double>::quiet_NaN();
+  };
   for (;;) {
     Fit fit = solve(sums, group);
     fit.total = one_grey.residual;
-    if (!fit.solved || some == blood_.end()) return fit;
-    const double blood = fit.grey[static_cast<std::size_t>(some - blood_.begin())];
+    if (!fit.solved) return fit;
+    const double blood = grey_of_blood(fit);
     int darkest = -1;
     for (std::size_t t = 0; t < group.size(); ++t)
       if (group[t] != 0 && fit.grey[t] < blood &&

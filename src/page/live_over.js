@@ -133,10 +133,11 @@ class LiveOver {
     context.clip();
     if (this.layers.has("labels") && truth.labels) this.drawLabels(context, truth);
     if (this.layers.has("contours"))
-      for (const { structure, points_mm } of truth.contours) {
+      for (const { structure, closed, points_mm } of truth.contours) {
         context.strokeStyle = HeartView.colourOf(structure);
         context.beginPath();
         points_mm.forEach((p) => context.lineTo(...this.pixel(p)));
+        if (closed) context.closePath();
         context.stroke();
       }
     if (truth.tracks) this.drawWall(context, truth);

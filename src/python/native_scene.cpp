@@ -103,6 +103,14 @@ View viewFrom(const std::string& argument, const std::string& key) {
 
 namespace {
 
+Look lookFrom(const std::string& argument, const std::string& key) {
+  if (const auto look = valueOf<Look>(key)) return *look;
+  std::string accepted;
+  for (const Named<Look>& look : NamesOf<Look>::kAll)
+    accepted += fmt::format("{}\"{}\"", accepted.empty() ? "" : " | ", look.name);
+  throw SceneError(fmt::format("{}: is \"{}\", accepted: {}", argument, key, accepted));
+}
+
 // Dials by the names that Python has for them: underscores for hyphens.
 heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
                                  const std::map<int, std::pair<double, double>>& segments,
@@ -125,6 +133,8 @@ heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
                                        ? fmt::format("accepted: {}", fmt::join(names, ", "))
                                        : "nearest: " + nearest));
     }
+  if (const std::string fault = heart::contradictionIn(by_key); !fault.empty())
+    throw SceneError("heart: " + fault);
   heart::Parameters parameters = heart::parametersFrom(by_key);
   for (const auto& [number, segment] : segments) {
     if (number < 1 || number > heart::kSegments)
@@ -140,8 +150,10 @@ heart::Parameters parametersFrom(const std::map<std::string, double>& dials,
 
 py::tuple makeHeart(const std::string& view_key, const std::map<std::string, double>& dials,
                     const std::map<int, std::pair<double, double>>& segments, bool keep_volumes,
-                    int keyframes, bool even, int threads, const py::object& progress) {
+                    int keyframes, const std::string& look_key, bool even, int threads,
+                    const py::object& progress) {
   const heart::View view = viewFrom("heart: view", view_key);
+  const Look look = lookFrom("heart: look", look_key);
   const heart::Parameters parameters = parametersFrom(dials, segments, keep_volumes);
   if (keyframes < 4 || keyframes > 100)
     throw SceneError(fmt::format("heart: keyframes: is {}, accepted: 4 to 100", keyframes));
@@ -153,7 +165,7 @@ py::tuple makeHeart(const std::string& view_key, const std::map<std::string, dou
       const heart::Recording recording = heart::record(
           model, view, keyframes,
           even ? heart::KeyframeSpacing::even : heart::KeyframeSpacing::by_motion, monitor);
-      text = heart::sceneText(view, parameters, recording, "");
+      text = heart::sceneText(view, parameters, recording, "", look);
       meshes = meshesOf(heart::sceneOf(view, parameters, recording));
       meshes.heart_truth = heart::truthText(model, recording);
     });
@@ -196,8 +208,8 @@ void bindScene(py::module_& module) {
           "json", [](const NativeScene& n) { return sceneJson(n.scene).dump(); },
           "The resolved scene in SI units, as in the manifest.");
   module.def("heart", &makeHeart, py::arg("view"), py::arg("dials"), py::arg("segments"),
-             py::arg("keep_volumes"), py::arg("keyframes"), py::arg("even"), py::arg("threads"),
-             py::arg("progress").none(true),
+             py::arg("keep_volumes"), py::arg("keyframes"), py::arg("look"), py::arg("even"),
+             py::arg("threads"), py::arg("progress").none(true),
              "A heart from its dials: its scene's text and its meshes.");
   module.def("scene_keys", &keyTable, "Full name, unit, accepted values, meaning of each key.");
   module.def("dials", &dialTable, "Key, unit, least, most, default or None, meaning of each dial.");

@@ -212,8 +212,12 @@ std::string studyTable(const StudyResult& result) {
 }
 
 void writeStudyFiles(const StudyResult& result, const std::filesystem::path& folder) {
-  const std::string json = studyJson(result).dump(1) + "\n", csv = studyCsv(result);
-  writeFileWhole(folder / "study.json", std::as_bytes(std::span(json)));
+  using nlohmann::json;
+  // A file's name may be no UTF-8.
+  const std::string text =
+      studyJson(result).dump(1, ' ', false, json::error_handler_t::replace) + "\n";
+  const std::string csv = studyCsv(result);
+  writeFileWhole(folder / "study.json", std::as_bytes(std::span(text)));
   writeFileWhole(folder / "study.csv", std::as_bytes(std::span(csv)));
 }
 

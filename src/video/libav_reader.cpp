@@ -59,6 +59,10 @@ std::string reasonOf(int error) {
   return text;
 }
 
+// By which the packets of a whole Matroska file may end before its header says, beside a frame: a
+// sound track's last frame. Our choice.
+constexpr double kLoose_s = 0.1;
+
 // Owns what the C libraries hand out. A name goes into every message.
 struct Decoder {
   Bytes bytes;
@@ -71,6 +75,7 @@ struct Decoder {
   SwsContext* scaler = nullptr;
   int stream = -1;
   bool unreadable = false;  // the file goes on, but cannot be read
+  double end_s = 0;         // of the packets read, of all streams
   std::vector<std::uint8_t> rgb;
 
   ~Decoder() {
@@ -85,6 +90,12 @@ struct Decoder {
 
   [[noreturn]] void refuse(const std::string& what) const {
     throw SceneError(fmt::format("{}: {}", name, what));
+  }
+  // Duration that a Matroska file states; 0: none. Others have a number of frames, or guess it.
+  double headerSeconds() const {
+    const bool states = std::string_view(format->iformat->name).starts_with("matroska");
+    return states && format->duration > 0 ? static_cast<double>(format->duration) / AV_TIME_BASE
+                                          : 0;
   }
   void open();
   void openCodec();
@@ -202,6 +213,9 @@ void Decoder::readAll(VideoBuilder& builder) {
       break;
     }
     builder.checkTime();
+    if (packet->pts != AV_NOPTS_VALUE)
+      end_s = std::max(end_s, static_cast<double>(packet->pts + packet->duration) *
+                                  av_q2d(format->streams[packet->stream_index]->time_base));
     if (packet->stream_index == stream) {
       const int sent = avcodec_send_packet(codec, packet);
       if (sent < 0 && sent != AVERROR(EAGAIN) && sent != AVERROR_EOF)
@@ -241,6 +255,11 @@ void readByLibav(std::span<const std::byte> bytes, VideoBuilder& builder) {
   else if (stream.nb_frames > frames)
     builder.video().notes.push_back(fmt::format(
         "it is cut off: {} of the {} frames in its header are present", frames, stream.nb_frames));
+  else if (const double whole_s = decoder.headerSeconds();
+           decoder.end_s < whole_s - kLoose_s - (rate.num > 0 ? av_q2d(av_inv_q(rate)) : 0))
+    builder.video().notes.push_back(
+        fmt::format("it is cut off: {:.2f} s of the {:.2f} s in its header are present",
+                    decoder.end_s, whole_s));
   else if (decoder.unreadable)
     builder.video().notes.push_back(
         fmt::format("it cannot be read beyond frame {}: it may be cut off", frames));

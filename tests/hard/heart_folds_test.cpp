@@ -157,7 +157,7 @@ TEST(HeartFolds, NoHeartOfThePublishedDatasetFolds) {
     Scene scene = dataset::firstPossible(
         spec, static_cast<int>(n),
         [&](const dataset::Draw& draw) {
-          Scene made = sceneOf(dataset::modelOf(draw.values).parameters(), wanted);
+          Scene made = sceneOf(dataset::modelOf(spec, draw.values).parameters(), wanted);
           ++hearts[draw.population->name];
           return made;
         },

@@ -106,7 +106,7 @@ TEST(DatasetPopulation, BuiltHeartsHaveTheIndicesOfTheirDials) {
     for (int n = 0; n < kHearts; ++n) {
       const Values values = drawOf(spec, n, 0).values;
       const IndexDials wanted = drawnIndices(values),
-                       measured = measuredIndices(modelOf(values),
+                       measured = measuredIndices(modelOf(spec, values),
                                                   drawnNumber(values, "subject.body_surface_m2"));
       for (std::size_t i = 0; i < kIndexDialCount; ++i)
         EXPECT_NEAR(measured[i], wanted[i], kTolerance[i]) << name << ' ' << n << ' ' << i;

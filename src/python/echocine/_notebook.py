@@ -112,18 +112,27 @@ def scene_svg(scene: "Scene") -> str:
         axis = axis / np.linalg.norm(axis)
         lateral = lateral - (lateral @ axis) * axis
         lateral = lateral / np.linalg.norm(lateral)
+        scale, offset = float(scene["motion.mesh_scale"]), np.asarray(scene["motion.mesh_offset_mm"] or 0.0, float) / unit
         for k, name in enumerate(scene.structures):
             points, faces = scene.mesh(name)
-            cut = _cut(points[0], faces, np.cross(axis, lateral), origin) - origin
+            cut = _cut(points[0] * scale + offset, faces, np.cross(axis, lateral), origin) - origin
             xy = np.stack([cut @ lateral, cut @ axis], axis=-1) * unit
             line = "".join(f"M{a[0]:.1f} {a[1]:.1f}L{b[0]:.1f} {b[1]:.1f}" for a, b in xy)
             paths.append(f'<path d="{line}" stroke="hsl({k * 137 % 360} 60% 45%)" stroke-width="0.8" fill="none">'
                          f"<title>{html.escape(name)}</title></path>")
     except (SceneError, TypeError, ValueError):
         pass  # keyframes in files, or a pose by anatomy: the sector alone
-    half = np.deg2rad(float(scene["probe.sector_deg"]) / 2) if "probe.sector_deg" in scene and scene["probe.sector_deg"] else 0.0
-    x, y = depth * np.sin(half), depth * np.cos(half)
-    sector = (f'<path d="M0 0L{-x:.1f} {y:.1f}A{depth:.1f} {depth:.1f} 0 0 0 {x:.1f} {y:.1f}Z" fill="#8882" stroke="#888" '
-              'stroke-width="0.5"/>')
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="360" height="360" viewBox="{-depth / 1.6:.1f} -10 {depth * 1.25:.1f} '
-            f'{depth + 20:.1f}" role="img" aria-label="sector and structures">{sector}{"".join(paths)}</svg>')
+    kind = scene["probe.kind"]
+    if kind == "radial":
+        shape = f"M{-depth:.1f} 0A{depth:.1f} {depth:.1f} 0 0 0 {depth:.1f} 0A{depth:.1f} {depth:.1f} 0 0 0 {-depth:.1f} 0Z"
+        above = depth
+    elif kind == "linear":
+        x, above = float(scene["probe.width_mm"]) / 2, 0.0
+        shape = f"M{-x:.1f} 0L{-x:.1f} {depth:.1f}L{x:.1f} {depth:.1f}L{x:.1f} 0Z"
+    else:
+        half, above = np.deg2rad(float(scene["probe.sector_deg"] or 0.0) / 2), 0.0
+        x, y = depth * np.sin(half), depth * np.cos(half)
+        shape = f"M0 0L{-x:.1f} {y:.1f}A{depth:.1f} {depth:.1f} 0 0 0 {x:.1f} {y:.1f}Z"
+    sector = f'<path d="{shape}" fill="#8882" stroke="#888" stroke-width="0.5"/>'
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="360" height="360" viewBox="{-1.1 * depth if above else -depth / 1.6:.1f} '
+            f'{-above - 10:.1f} {2.2 * depth if above else depth * 1.25:.1f} {depth + above + 20:.1f}" role="img" aria-label="sector and structures">{sector}{"".join(paths)}</svg>')

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import copy
 import difflib
+import hashlib
 import os
 import tomllib
 from pathlib import Path
@@ -155,6 +156,8 @@ class Scene:
         parts = key.split(".")
         if parts[0] == "structure" and len(parts) >= 3:
             return self._structure(document, ".".join(parts[1:-1])), parts[-1]
+        if parts[0] == "media" and len(parts) >= 3:  # a medium's name may have dots
+            parts = ["media", ".".join(parts[1:-1]), parts[-1]]
         table = document
         for part in parts[:-1]:
             if make and part not in table:
@@ -257,8 +260,7 @@ class Scene:
     @staticmethod
     def _add_keyframes(meshes: _echocine.Meshes, entry: Dict[str, Any], key: str, value: Any) -> Any:
         """Puts them in and returns what the scene's text calls them."""
-        name = str(entry.get("name", "structure"))
-        stem = "".join(c if c.isalnum() or c in "_-" else "_" for c in name)
+        stem = _mesh_stem(str(entry.get("name", "structure")))
         if isinstance(value, np.ndarray):  # other points for the same faces
             old = entry.get("keyframes")
             like = next((n for n in meshes.names() if _matches(n, old)), None)
@@ -429,6 +431,12 @@ class Scene:
         return scene_html(self)
 
 
+def _mesh_stem(structure: str) -> str:
+    """The start of the names of a structure's meshes in memory, another one for each structure."""
+    stem = "".join(c if c.isalnum() or c in "_-" else "_" for c in structure)
+    return stem if stem == structure else f"{stem}~{hashlib.sha256(structure.encode()).hexdigest()[:8]}"
+
+
 def _matches(name: str, patterns: Any) -> bool:
     import fnmatch
     listed = patterns if isinstance(patterns, list) else [patterns]
@@ -482,11 +490,10 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
             raise SceneError(f"heart: segment {number}: is {wall!r}, accepted: an amplitude, or (amplitude, delay in ms)")
         amplitude, delay_ms = (_number(f"heart: segment {number}", part) for part in parts)
         walls[int(number)] = (amplitude, delay_ms * 1e-3)
-    text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, even, thread_count(threads), report_to(progress))
-    scene = Scene._of(text, "heart", meshes)
-    if look != "scanner":  # which the heart's text has
-        scene["signal.look"] = look
-    return scene
+    if not isinstance(look, str):
+        raise SceneError(f'heart: look: is {look!r}, accepted: a name such as "scanner"')
+    text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, look, even, thread_count(threads), report_to(progress))
+    return Scene._of(text, "heart", meshes)
 
 
 def dials() -> Dict[str, Dict[str, Any]]:

@@ -11,8 +11,13 @@ import numpy as np
 _BARE = frozenset("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-")
 
 
+def _quoted(text: str) -> str:
+    # TOML knows JSON's escapes but for DEL, which both accept only escaped in TOML.
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")
+
+
 def _key(name: str) -> str:
-    return name if name and set(name) <= _BARE else json.dumps(name)
+    return name if name and set(name) <= _BARE else _quoted(name)
 
 
 def _number(value: float) -> str:
@@ -44,8 +49,7 @@ def _inline(value: Any) -> str:
     if isinstance(value, float):
         return _number(value)
     if isinstance(value, str):
-        # TOML knows JSON's escapes but for DEL, which both accept only escaped in TOML.
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
+        return _quoted(value)
     if isinstance(value, dict):
         return "{ " + ", ".join(f"{_key(k)} = {_inline(v)}" for k, v in value.items()) + " }" if value else "{}"
     return "[" + ", ".join(_inline(v) for v in value) + "]"
