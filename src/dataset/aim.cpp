@@ -11,6 +11,7 @@
 #include "dataset/user_scenes.h"
 #include "motion/heart/heart_scene.h"
 #include "motion/heart/recording.h"
+#include "motion/surfaces/probe_placement.h"
 #include "scene/names.h"
 #include "scene/probe_pose.h"
 #include "scene/scene_reader.h"
