@@ -63,7 +63,7 @@ std::string study(const NativeScene& scene, const std::optional<std::filesystem:
     const StudyResult result = runStudy(scene.scene, options, monitor, write);
     if (result.rows.empty()) throw JobError("stopped before the first setting was measured");
     write(result);
-    json = studyJson(result).dump();
+    json = studyJson(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   });
   return json;
 }

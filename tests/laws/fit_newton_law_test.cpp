@@ -75,5 +75,21 @@ TEST(FitNewton, StepsFollowTheSlopesOfTheCost) {
   });
 }
 
+// Differences of a plane need a step to both sides, also within a small limit.
+TEST(FitNewton, StepsOfAPlaneFitIntoItsLimits) {
+  withThreads(2, [] {
+    OneDial one;
+    for (const double most_deg : {0.5, 1.0, 3.0, 5.0, 20.0}) {
+      const FitCost cost({{&one.family, &one.discrepancy, &one.look}}, one.fixed, most_deg);
+      const std::vector<double> middle = cost.middleOf({0.5, most_deg, -most_deg});
+      for (const std::size_t u : {1, 2}) {
+        const FitUnknown& plane = cost.unknowns()[u];
+        EXPECT_GE(middle[u] - plane.step, plane.low) << plane.name << ' ' << most_deg;
+        EXPECT_LE(middle[u] + plane.step, plane.high) << plane.name << ' ' << most_deg;
+      }
+    }
+  });
+}
+
 }  // namespace
 }  // namespace echocine::fit

@@ -29,9 +29,13 @@ TEST(CompareScan, ScansAreReadOrRefusedByName) {
       EXPECT_NE(std::string(error.what()).find("--scan"), std::string::npos) << error.what();
     }
   }
+  // A step as large as the range, also below 0.
+  EXPECT_EQ(parseScan("bow-lateral=-0.06:-0.02:0.04")[0].values().size(), 2u);
+  EXPECT_THROW(parseScan("bow-lateral=-0.06:-0.02:0.041"), SceneError);
   EXPECT_EQ(parseDials("hr=72,wall-thickness=11").at("hr"), 72);
   EXPECT_THROW(parseDials("hr"), SceneError);
   EXPECT_THROW(parseDials("hr=900"), SceneError);
+  EXPECT_THROW(parseDials("ef=0.5,ef=0.6"), SceneError);
 }
 
 }  // namespace

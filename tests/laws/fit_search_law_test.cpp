@@ -7,13 +7,16 @@
 #include <map>
 #include <set>
 
+#include "core/error.h"
 #include "core/hash_random.h"
+#include "fit/fit_cost.h"
 #include "fit/fit_strain.h"
 #include "fit/heart_design.h"
 #include "fit/heart_prior.h"
 #include "fit/searched_dials.h"
 #include "motion/heart/heart_cycle.h"
 #include "motion/heart/heart_scene.h"
+#include "motion/heart/left_ventricle.h"
 #include "motion/surfaces/interior_motion.h"
 #include "truth/frame_truth.h"
 
@@ -61,6 +64,24 @@ TEST(FitDesign, DefaultDialsAreSearchedDials) {
 }
 
 // The right atrium follows the left one, unless it is given.
+TEST(FitDesign, OnlySearchedDialsCanBeSearched) {
+  checkSearched({"ef", "sphericity"});
+  EXPECT_THROW(checkSearched({"ef", "wall_thickness"}), SceneError);
+  EXPECT_TRUE(isFixed("sphericity", {{"lv-length", 90}}));
+  EXPECT_TRUE(isFixed(kRightRatio, {{"rv-edv", 150}}));
+  EXPECT_FALSE(isFixed("sphericity", {{"edv", 150}}));
+}
+
+// The prior of a heart whose length is given is that of its shape.
+TEST(FitDesign, TheLengthGivesTheSphericityOfThePrior) {
+  const std::map<std::string, double> round{{"edv", 140}, {"sphericity", 0.55}, {"conicity", 0.8}};
+  const double length_mm = 1e3 * heart::LeftVentricle(heart::parametersFrom(round)).length();
+  const PriorDials by_length =
+      priorDialsOf({{"edv", 140}, {"conicity", 0.8}, {"lv-length", length_mm}});
+  for (std::size_t i = 0; i < by_length.size(); ++i)
+    EXPECT_NEAR(by_length[i], priorDialsOf(round)[i], 1e-9) << kPriorDials[i];
+}
+
 TEST(FitDesign, TheRightAtriumFollowsTheLeft) {
   std::map<std::string, double> none{{"ef", 0.5}}, healthy{{"la-volume", 55}},
       large{{"la-volume", 110}}, given{{"la-volume", 110}, {"ra-volume", 40}};

@@ -136,11 +136,22 @@ def test_warnings_are_python_warnings(recwarn):
     assert all(line in issued for line in scene.warnings)
 
 
+def outline_mm(scene):
+    """The box of the ball in a scene's drawing: least and most of right and down."""
+    path = scene._repr_html_().split('<path d="')[2].split('"')[0]
+    points = np.array([pair.split() for pair in path.replace("L", "M").split("M")[1:]], float)
+    return np.concatenate([points.min(axis=0), points.max(axis=0)])
+
+
 def test_notebook(scene):
     loop = echocine.render(scene, frames=(0, 3))
     player = loop._repr_html_()
     assert player.count("data:image/png;base64,") == 3 and "http" not in player
     assert scene._repr_html_().count("<path") == 2  # the sector and the ball
+    moved = scene.copy()
+    moved["motion.mesh_scale"] = 0.5
+    moved["motion.mesh_offset_mm"] = [0.0, 0.0, 40.0]
+    assert outline_mm(moved) == pytest.approx(0.5 * outline_mm(scene) + np.array([0, 40, 0, 40]), abs=0.2)
     placed = echocine.heart(keyframes=4)
     placed.update({"probe.apex": None, "probe.axis": None, "probe.lateral": None, "probe.depth_mm": None, "probe.view": "a4c"})
     assert "figcaption" in placed._repr_html_()

@@ -218,3 +218,40 @@ def test_an_inside_out_mesh_is_refused(scene):
 def test_arrays_of_any_order_and_type(scene):
     scene["structure.ball.keyframes"] = (np.asfortranarray(POINTS.astype(np.float32)), FACES.astype(np.uint8)[::1])
     assert np.allclose(scene.mesh("ball")[0][0], POINTS, atol=1e-4)
+
+
+def test_structures_of_similar_names_keep_their_meshes():
+    names = ("lv wall", "lv_wall", "lv.wall")
+    source = ball_scene()._document()
+    entry = {k: v for k, v in source["structure"][0].items() if k not in ("name", "keyframes")}
+    source["structure"] = [{**entry, "name": name, "keyframes": (POINTS * (1 - 0.1 * i), FACES)} for i, name in enumerate(names)]
+    scene = echocine.Scene(source)
+    for i, name in enumerate(names):
+        assert np.allclose(scene.mesh(name)[0][0], POINTS * (1 - 0.1 * i), atol=1e-4)
+    scene["structure.lv wall.keyframes"] = POINTS[None] * 0.5
+    assert np.allclose(scene.mesh("lv wall")[0][0], POINTS * 0.5, atol=1e-4)
+    assert np.allclose(scene.mesh("lv_wall")[0][0], POINTS * 0.9, atol=1e-4)
+
+
+def test_a_heart_has_the_scene_of_its_look():
+    assert echocine.heart(keyframes=4, look="paper")["signal.dynamic_range_db"] == 58
+    assert echocine.heart(keyframes=4, look="sharp")["signal.look"] == "sharp"
+    with pytest.raises(echocine.SceneError, match='heart: look: is "foggy", accepted: "paper"'):
+        echocine.heart(look="foggy")
+
+
+def test_two_dials_of_one_width_are_refused():
+    with pytest.raises(echocine.SceneError, match="lv-length and sphericity"):
+        echocine.heart(lv_length=95, sphericity=0.7)
+
+
+def test_media_of_any_name_read_back():
+    names = ("a.b", "\U0001fac0", "de\x7fl")
+    source = ball_scene()._document()
+    medium = next(iter(source["media"].values())) if "media" in source else {"density_kg_m3": 1060.0, "speed_m_s": 1540.0}
+    source["media"] = {**source.get("media", {}), **{name: dict(medium) for name in names}}
+    scene = echocine.Scene(source)
+    for name in names:
+        scene[f"media.{name}.density_kg_m3"] = 1041.0
+        assert scene[f"media.{name}.density_kg_m3"] == 1041.0
+        assert f"media.{name}.density_kg_m3" in scene.keys()

@@ -38,6 +38,12 @@ TEST(DatasetSpec, WhatIsWrongIsNamedWithWhatIsAccepted) {
   expectRefused(kStart + "[heart]\nhr = { choice = [60, 80], weights = [0.5, 0.6] }\n",
                 {"heart.hr.weights", "sum to 1.1"});
   expectRefused(kStart + "[populations]\nhealthy = 0.5\n", {"populations", "sum to 0.5"});
+  // Drawn with the ejection fraction of the infarct.
+  expectRefused(kStart +
+                    "[populations]\ninfarct_lad = 1\n[[correlated]]\n"
+                    "parameters = [\"heart.segments.lad.amplitude\", \"heart.hr\"]\n"
+                    "correlations = [0.9]\n",
+                {"heart.segments.lad.amplitude", "not drawn by itself"});
   expectRefused(kStart + "[populations]\nathletes = 1\n", {"athletes", "healthy", "dilated"});
   expectRefused(kStart + "[heart.segments.lap]\namplitude = 0\n", {"lap", "lad"});
   expectRefused(kStart + "[offset]\ntilt_deg = 80\n", {"offset.tilt_deg", "-60 to 60"});

@@ -238,6 +238,30 @@ TEST_F(Reading, AFilmThatIsCutOffSaysSo) {
   }
 }
 
+// A file that ends between two clusters of Matroska decodes without an error.
+TEST_F(Reading, AFilmThatIsCutOffAtAClusterSaysSo) {
+  Drawing d = drawing;
+  d.frames = 24;
+  writePictures(folder / "png", coloured(drawnLoop(d), 320, 240), ".png");
+  const std::string whole = (folder / "film.mkv").string();
+  if (runShell("ffmpeg -v error -y -framerate 25 -i '" + (folder / "png/frame_%d.png").string() +
+               "' -c:v mjpeg -q:v 2 -cluster_time_limit 200 '" + whole + "'")
+          .code != 0)
+    GTEST_SKIP() << "no ffmpeg";
+  EXPECT_TRUE(readVideo(whole).notes.empty());
+  const std::string bytes = bytesOf(whole), cluster = "\x1f\x43\xb6\x75";
+  int cuts = 0;
+  for (std::size_t at = bytes.find(cluster, bytes.find(cluster) + 4); at != std::string::npos;
+       at = bytes.find(cluster, at + 4), ++cuts) {
+    const Video video = readVideo(folder.write("cut.mkv", bytes.substr(0, at)));
+    EXPECT_LT(video.frameCount(), 24);
+    ASSERT_EQ(video.notes.size(), 1u) << at;
+    EXPECT_NE(video.notes[0].find("it is cut off: "), std::string::npos) << video.notes[0];
+    EXPECT_NE(video.notes[0].find("of the 0.96 s in its header"), std::string::npos);
+  }
+  EXPECT_GE(cuts, 2);
+}
+
 TEST_F(Reading, TheProgramEndsWithTwoAndOneLine) {
   writeLossless(folder / "loop.avi", drawing);
   writeLossless(folder / "still.avi", {frames[0], frames[0]}, 320, 240);

@@ -171,5 +171,23 @@ TEST(MotionMeshRepair, EveryNastyMeshIsRefusedWithWhatToDoOrRepaired) {
   }
 }
 
+// Far from the surface they would steer the motion inside the body, and its extent.
+TEST(MotionMeshRepair, VerticesWithoutAFaceAreNoPartOfTheSurface) {
+  TriangleMesh stray = ball();
+  stray.positions.insert(stray.positions.begin(), Vec3d{900, 0, 0});
+  for (Triangle& t : stray.triangles)
+    for (std::uint32_t& v : t) ++v;
+  for (const Repairs& repair : {Repairs{}, kOrient, kFill, kWeld}) {
+    std::vector<KeyframeMesh> keyframes = keyframesOf({stray, stray});
+    keyframes[1].mesh.positions[0] = {-900, 0, 0};
+    const std::string note = mend(named(repair), keyframes);
+    EXPECT_EQ(note, repair.any() ? objPlace() + "repaired: 1 unused vertex dropped" : "");
+    for (const KeyframeMesh& keyframe : keyframes) {
+      EXPECT_EQ(keyframe.mesh.positions, ball().positions);
+      EXPECT_EQ(keyframe.mesh.triangles, ball().triangles);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace echocine::motion_test

@@ -80,6 +80,25 @@ TEST_F(DatasetGrowth, MoreViewsAndLayoutsEndInTheSameBytes) {
               before.at(std::string("native/ec000001_a4c/") + file));
 }
 
+TEST_F(DatasetGrowth, ViewsInAnotherOrderEndInTheSameBytes) {
+  ASSERT_EQ(make("grown", "hearts = 1\nviews = [\"a4c\", \"a2c\"]\n").code, 0);
+  const std::string other = "hearts = 1\nviews = [\"a2c\", \"a4c\"]\n";
+  const Outcome grown = make("grown", other);
+  EXPECT_EQ(grown.code, 0) << grown.err;
+  ASSERT_EQ(make("fresh", other).code, 0);
+  EXPECT_EQ(made("grown"), made("fresh"));
+}
+
+// The name of a dataset is that of its file, which may be in another encoding.
+TEST_F(DatasetGrowth, ASpecWhoseNameIsNoUtf8IsMerged) {
+  const fs::path spec =
+      place.write("caf\xe9.toml", "hearts = 1\nviews = [\"a4c\"]\nlayouts = [\"native\"]\n" + rest);
+  const Outcome made =
+      runShell("%B dataset '" + spec.string() + "' -o '" + (place / "made").string() + "' --quiet");
+  EXPECT_EQ(made.code, 0) << made.err;
+  EXPECT_TRUE(fs::exists(place / "made/dataset.json"));
+}
+
 TEST_F(DatasetGrowth, WhatChangesALoopIsRefusedByItsKey) {
   ASSERT_EQ(make("grown", kTwoHearts).code, 0);
   const auto before = made("grown");
