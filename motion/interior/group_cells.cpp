@@ -53,11 +53,13 @@ void CellLayer::layGrid() {
   } else {
     for (const Vec3f p : points_m_) box.add(toDouble(p));
   }
+  const int beyond = space_.cells_beyond;
   const auto first = [&](double lo, double from) {
-    return static_cast<int>(std::floor((lo - from) / spacing)) - (members_.open ? 0 : 2);
+    return static_cast<int>(std::floor((lo - from) / spacing)) - (members_.open ? 0 : beyond + 1);
   };
   const auto count = [&](double hi, double from, int start) {
-    return static_cast<int>(std::ceil((hi - from) / spacing)) - start + (members_.open ? 1 : 3);
+    return static_cast<int>(std::ceil((hi - from) / spacing)) - start +
+           (members_.open ? 1 : beyond + 2);
   };
   const int x = first(box.lo.x, origin.x), y = first(box.lo.y, origin.y),
             z = first(box.lo.z, origin.z);
@@ -123,14 +125,16 @@ void CellLayer::activate() {
   inside_.assign(grid.count(), false);
   markOwn();
   activateInside(active);
-  for (const Vec3f p : points_m_) {  // the cell of a point and one more all round
+  const int beyond = space_.cells_beyond;
+  for (const Vec3f p : points_m_) {  // the cell of a point and those about it
     int cell[3];
     float fraction[3];
     inCell(p, cell, fraction);
-    for (int y = std::max(cell[1] - 1, 0); y <= std::min(cell[1] + 2, grid.ny - 1); ++y)
-      for (int z = std::max(cell[2] - 1, 0); z <= std::min(cell[2] + 2, grid.nz - 1); ++z)
-        for (int x = std::max(cell[0] - 1, 0); x <= std::min(cell[0] + 2, grid.nx - 1); ++x)
-          active[grid.at(x, y, z)] = true;
+    const auto low = [&](int i) { return std::max(cell[i] - beyond, 0); };
+    const auto high = [&](int i, int nodes) { return std::min(cell[i] + 1 + beyond, nodes - 1); };
+    for (int y = low(1); y <= high(1, grid.ny); ++y)
+      for (int z = low(2); z <= high(2, grid.nz); ++z)
+        for (int x = low(0); x <= high(0, grid.nx); ++x) active[grid.at(x, y, z)] = true;
   }
   ActiveNodes& nodes = cells_.nodes;
   nodes = {grid.nx, grid.ny, grid.nz, std::vector<std::int32_t>(grid.count(), -1), {}};

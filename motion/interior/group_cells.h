@@ -18,6 +18,8 @@ struct FieldSpace {
   Box moving;        // the moving surfaces at the reference phase
   double margin_m;   // beyond it the background and still surroundings come to rest
   double spacing_m;  // between nodes
+  // Cells all round that of a border point which take part: material may stand out of its surfaces.
+  int cells_beyond = 1;
   Vec3d origin() const { return moving.lo - Vec3d{margin_m, margin_m, margin_m}; }
 };
 

@@ -11,6 +11,7 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "motion/interior/group_lattice.h"
+#include "motion/interior/lattice_slabs.h"
 #include "motion/interior/reach_across.h"
 #include "motion/interior/top_surfaces_at.h"
 
@@ -119,6 +120,8 @@ bool MotionField::State::measure(const std::vector<InteriorSurface>& surfaces,
   const double diagonal_m = length(space.moving.hi - space.moving.lo);
   space.spacing_m = diagonal_m / settings.cells;
   space.margin_m = kMarginSpacings * space.spacing_m;
+  if (settings.beyond_m > space.spacing_m)
+    space.cells_beyond = static_cast<int>(std::ceil(settings.beyond_m / space.spacing_m));
   return space.spacing_m > 0;
 }
 
@@ -250,28 +253,9 @@ std::vector<GroupId> MotionField::groupsIn(const Box& reference_m) const {
   return groups;
 }
 
-namespace {
-
-constexpr float kEverywhere_m = std::numeric_limits<float>::infinity();
-
-// The active nodes of the slabs about a range of y.
-std::pair<std::uint32_t, std::uint32_t> nodesWithin(const GroupLattice& lattice,
-                                                    std::pair<float, float> y_range_m) {
-  const LatticeGrid& grid = lattice.grid;
-  const auto slabOf = [&](float y, int beyond) {
-    const float slab = std::floor((y - grid.origin_m.y) / grid.spacing_m);
-    const auto last = static_cast<float>(grid.ny);  // clamped before it need fit an integer
-    return std::clamp(static_cast<int>(std::clamp(slab, -last, last)) + beyond, 0, grid.ny);
-  };
-  const int first = slabOf(y_range_m.first, 0), end = slabOf(y_range_m.second, 2);
-  return {lattice.slab_starts[static_cast<std::size_t>(first)],
-          lattice.slab_starts[static_cast<std::size_t>(std::max(first, end))]};
-}
-
-}  // namespace
-
 void MotionField::at(double phase, FieldFrame& frame) const {
-  at(phase, frame, FieldPart(groupCount(), std::pair(-kEverywhere_m, kEverywhere_m)));
+  constexpr float everywhere_m = std::numeric_limits<float>::infinity();
+  at(phase, frame, FieldPart(groupCount(), std::pair(-everywhere_m, everywhere_m)));
 }
 
 void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) const {

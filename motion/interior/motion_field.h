@@ -44,6 +44,7 @@ enum class GroupId : std::uint16_t {};
 struct FieldSettings {
   double reference_phase = 0;  // where material points have their names
   int cells = 48;              // along the moving surfaces' diagonal. Our choice, see README
+  double beyond_m = 0;         // by which material may stand out of its surfaces: trabeculae
 };
 
 // Nodes of a group's lattice. All groups' nodes stand on one lattice of the scene; those of the

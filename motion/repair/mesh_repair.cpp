@@ -56,7 +56,8 @@ RepairCounts repair(const Repairs& asked, bool membrane, RepairMesh& mesh) {
   // Splitting changes the connections of sheets.
   if (asked.split && asked.orient) counts.turned += orientFaces(mesh, membrane);
   const std::size_t gone = dropUnusedVertices(mesh);
-  counts.unused = gone - std::min(gone, counts.welded);
+  if (asked.weld || asked.drop_degenerate || asked.split)
+    counts.unused = gone - std::min(gone, counts.welded);
   if (asked.fill_holes) counts.filled = fillHoles(mesh);
   return counts;
 }

@@ -41,7 +41,8 @@ MotionField interiorMotion(const Scene& scene, const MeshMotion& motion) {
         surfaces[shown.surface].keyframes_m[shown.keyframe] = frame.positions_m[shown.surface];
     }
   });
-  return MotionField(std::move(surfaces), {.cells = scene.accuracy.motion_field_cells});
+  return MotionField(std::move(surfaces), {.cells = scene.accuracy.motion_field_cells,
+                                           .beyond_m = scene.trabeculae.most_m()});
 }
 
 const std::shared_ptr<const MotionField>& SharedMotionField::shared() const {

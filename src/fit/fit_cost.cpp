@@ -26,10 +26,8 @@ PriorDials priorDialsOf(const std::map<std::string, double>& dials) {
   const heart::Parameters parameters = heart::parametersFrom(dials);
   PriorDials out{};
   for (std::size_t i = 0; i < out.size(); ++i)
-    out[i] =
-        kPriorDials[i] == std::string_view("sphericity")
-            ? heart::sphericityOf(parameters)
-            : dialOf("dials", kPriorDials[i]).get(parameters).value_or(heart::outlineConicity());
+    out[i] = dialOf("dials", kPriorDials[i]).get(parameters).value_or(heart::outlineConicity());
+  out[priorDialOf("sphericity").value()] = heart::sphericityOf(parameters);
   return out;
 }
 

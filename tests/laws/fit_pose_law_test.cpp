@@ -64,7 +64,9 @@ TEST(FitPose, AStartKeepsTheRivalsOfTheSearch) {
                              rival.shift_z_m - also.pose.shift_z_m) > 0.005 ||
                   std::abs(rival.turn_rad - also.pose.turn_rad) > radiansFromDegrees(5) ||
                   std::abs(rival.scale - also.pose.scale) > 0.03);
-      if (i > 0) EXPECT_LE(also.rivals[i - 1].second, also.rivals[i].second);
+      if (i > 0) {
+        EXPECT_LE(also.rivals[i - 1].second, also.rivals[i].second);
+      }
     }
   }
 }

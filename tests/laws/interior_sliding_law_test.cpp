@@ -59,6 +59,25 @@ TEST(InteriorSlidingLaw, AFieldWithoutSlidingIsLinearInTheMotion) {
   EXPECT_LT(difference_m, 2e-6);
 }
 
+// Trabeculae stand out of a wall and move with it, however high they are.
+TEST(InteriorSlidingLaw, MaterialBeyondTheSurfacesMovesWithThem) {
+  std::vector<InteriorSurface> ball = ballWithCavity(0);
+  const Vec3f step_m{3e-3f, -2e-3f, 1e-3f};
+  for (InteriorSurface& surface : ball)
+    for (Vec3f& p : surface.keyframes_m[1]) p = p + step_m;
+  for (const double beyond_m : {0.002, 0.004, 0.008})
+    for (const int cells : {24, 64}) {
+      FieldFrame frame;
+      MotionField(ball, {.cells = cells, .beyond_m = beyond_m}).at(0.5, frame);
+      for (std::uint64_t i = 0; i < 500; ++i) {
+        const auto in = [&](std::uint64_t n) { return 2 * uniformFromHash(hashOf(i, n)) - 1; };
+        const Vec3d p = (kInner_m - beyond_m) * normalised(Vec3d{in(1), in(2), in(3)});
+        const Vec3f moved = frame.groups[0].place(toFloat(p)) - toFloat(p);
+        ASSERT_LT(length(moved - step_m), 1e-6f) << beyond_m << ' ' << cells;
+      }
+    }
+}
+
 // Also at nodes that no row writes.
 TEST(InteriorSlidingLaw, AFrameOfAnotherFieldLeavesNothingBehind) {
   const MotionField other(ballWithCavity(1, 0.045)), field(ballWithCavity(1));

@@ -248,7 +248,7 @@ def test_two_dials_of_one_width_are_refused():
 def test_media_of_any_name_read_back():
     names = ("a.b", "\U0001fac0", "de\x7fl")
     source = ball_scene()._document()
-    medium = next(iter(source["media"].values())) if "media" in source else {"density_kg_m3": 1060.0, "speed_m_s": 1540.0}
+    medium = {"density_kg_m3": 1060.0, "sound_speed_m_s": 1540.0, "attenuation_db_cm_mhz": 0.5, "backscatter": {"kind": "none"}}
     source["media"] = {**source.get("media", {}), **{name: dict(medium) for name in names}}
     scene = echocine.Scene(source)
     for name in names:

@@ -121,7 +121,9 @@ TEST(DatasetAim, OverlappingSegmentsHaveTheValueOfTheSmallestGroup) {
       "[heart.segments.17]\namplitude = 0.2\n");
   EXPECT_EQ(nested[16], 0.2);
   for (const int apical : dataset::segmentsOf("apical"))
-    if (apical != 17) EXPECT_EQ(nested[static_cast<std::size_t>(apical - 1)], 0.5) << apical;
+    if (apical != 17) {
+      EXPECT_EQ(nested[static_cast<std::size_t>(apical - 1)], 0.5) << apical;
+    }
   EXPECT_EQ(nested[0], 0.9);
   const std::vector<double> given =
       amplitudesOf("[populations]\ninfarct_lad = 1\n[heart.segments.all]\namplitude = 1\n");
@@ -132,6 +134,7 @@ TEST(DatasetAim, OverlappingSegmentsHaveTheValueOfTheSmallestGroup) {
 TEST(DatasetAim, TracksAreShownWithinTheBeamAtTheirPath) {
   dataset::LoopSample loop;
   Probe& probe = loop.scene.probe;
+  probe.frequency_hz = 2.5e6;
   probe.first_angle_rad = -0.7;
   probe.last_angle_rad = 0.7;
   probe.max_depth_m = 0.15;

@@ -30,7 +30,8 @@ TEST(DatasetCamus, APlaneWithoutALongAxisHasTheExactEjectionFraction) {
         support::bytesOf(folder / "camus/database_nifti/patient0001/Info_4CH.cfg");
     return std::stod(text.substr(text.find("EF: ") + 4));
   };
-  EXPECT_NEAR(written(whole)[1]["camus"]["ef_views_percent"].get<double>(), ejected(), 0.5);
+  const Json loops = written(whole);
+  EXPECT_NEAR(loops[1]["camus"]["ef_views_percent"].get<double>(), ejected(), 0.5);
   for (const bool end_systole : {false, true}) {
     Heart missed = whole;
     LoopSample& loop = missed.loops[0];
