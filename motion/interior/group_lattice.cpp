@@ -223,7 +223,7 @@ bool GroupFitter::letSlide(const std::vector<float>& nodes) {
     slides |= factor < 0.5;
     factors[j] = static_cast<float>(factor);
   }
-  // The equations have the weights of before until they are updated.
+  // The equations keep the old weights until they are updated.
   for (std::size_t j = 0; slides && j < factors.size(); ++j) data_.samples[j].weight *= factors[j];
   return slides;
 }

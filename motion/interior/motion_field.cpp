@@ -56,7 +56,7 @@ struct MotionField::State {
     GroupLattice lattice;
     double reach_across_m = 0;
   };
-  const std::uint64_t number_of_field = nextNumber();  // FieldFrame::field
+  const std::uint64_t field_number = nextNumber();
   FieldSettings settings;
   FieldSpace space{};
   std::unique_ptr<TopSurfaces> tops;
@@ -262,8 +262,8 @@ void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) con
   CHECK_EQ(part.size(), groupCount());
   frame.phase = phase;
   // Nodes without a row are never written, so they must be 0 first: frames are reused.
-  const bool is_new = frame.field != state_->number_of_field;
-  frame.field = state_->number_of_field;
+  const bool is_new = frame.field_number != state_->field_number;
+  if (is_new) frame.field_number = 0;  // until all groups are set: a stop may leave early
   frame.groups.resize(state_->groups.size());
   thread_local std::vector<std::vector<KeyframeWeights::Term>> terms;
   thread_local std::vector<Vec3f> sums_m;
@@ -288,6 +288,7 @@ void MotionField::at(double phase, FieldFrame& frame, const FieldPart& part) con
     for (std::size_t i = 0; i < sums_m.size(); ++i)
       out.displacement_m[lattice.nodes.nodes[begin + i]] = sums_m[i];
   }
+  frame.field_number = state_->field_number;
 }
 
 }  // namespace echocine

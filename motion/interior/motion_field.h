@@ -89,7 +89,7 @@ struct GroupFrame {
 // All groups at one phase, by GroupId. Reused without allocation.
 struct FieldFrame {
   double phase = 0;
-  std::uint64_t field = 0;  // the field that the groups are of; 0: none yet
+  std::uint64_t field_number = 0;  // of the field that wrote the groups; 0: none yet
   std::vector<GroupFrame> groups;
 
   const GroupFrame& operator[](GroupId group) const { return groups[index(group)]; }

@@ -149,7 +149,7 @@ std::string repairKeyframes(const Structure& structure, std::vector<KeyframeMesh
     throw SceneError(atPlace(structure.place, fmt::format("{}: {}", structure.name, error.what())));
   }
   giveBack(mesh, keyframes);
-  const std::string done = structure.repair.any() ? words(counts) : "";
+  const std::string done = words(counts);
   return done.empty()
              ? ""
              : atPlace(structure.place, fmt::format("{}: repaired: {}", structure.name, done));

@@ -192,7 +192,9 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     const std::size_t s = order[i];
     try {
       const Structure& structure = scene.structures[s];
-      const double aside_m = trabeculaeReach(scene, structure) + slices_m;
+      // What stands out of the mesh may reach the plane: relief, or half a leaflet's body at most.
+      const double aside_m =
+          trabeculaeReach(scene, structure) + leafletThickness(scene, structure) + slices_m;
       const MeshTags& tags = set.structures[s].front().mesh.tags;
       prepared[s].emplace(set.structures[s], scene, structure, static_cast<SurfaceId>(s), aside_m);
       if (smooth_normals_) prepared[s]->smooth(tags, scene);

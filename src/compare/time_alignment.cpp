@@ -173,13 +173,16 @@ TimeAlignment alignByAnchors(const TimeProblem& p, std::vector<Anchor> anchors) 
   out.periodic = search.periodic();
   double pace = p.nominal_rate;
   // The anchors repeat a beat later and a beat earlier, so that frames outside them are between two
-  // as well.
+  // as well: the first one after those of one beat, else the last one.
   if (p.synthetic_beat > 0 && p.real_beat > 0) {
     pace = p.synthetic_beat / p.real_beat;
-    const Anchor first = anchors.front();
-    anchors.push_back({first.real + p.real_beat, first.synthetic + p.synthetic_beat});
-    anchors.insert(anchors.begin(), {anchors[anchors.size() - 2].real - p.real_beat,
-                                     anchors[anchors.size() - 2].synthetic - p.synthetic_beat});
+    const Anchor first = anchors.front(), last = anchors.back();
+    const bool is_one_beat =
+        last.real - first.real < p.real_beat && last.synthetic - first.synthetic < p.synthetic_beat;
+    const Anchor next = is_one_beat ? first : last, before = is_one_beat ? last : first;
+    anchors.push_back({next.real + p.real_beat, next.synthetic + p.synthetic_beat});
+    anchors.insert(anchors.begin(),
+                   {before.real - p.real_beat, before.synthetic - p.synthetic_beat});
   }
   for (std::size_t j = 0; j < p.real.size(); ++j) {
     const auto x = static_cast<double>(j);

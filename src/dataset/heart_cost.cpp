@@ -27,8 +27,8 @@ HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
     remove();
     if (made.failed > 0)
       throw JobError(
-          "the first heart, which is made to estimate the cost, failed: make it without "
-          "--slurm and --preview for the reason");
+          "the first heart, which is made to estimate the cost, failed: run without --slurm or "
+          "--preview to see why");
     const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - start;
     constexpr double kMegabyte = 1 << 20;
     return {passed.count(), static_cast<double>(made.bytes), peakMemory_bytes() / kMegabyte};

@@ -141,7 +141,6 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
   return loops.empty() ? flawOfFiles(record) : loops;
 }
 
-// Has the record all views and layouts of the spec?
 // Each loop has the view of its place in the spec, as far as both go.
 bool inOrder(const Json& loops, const Spec& spec) {
   for (std::size_t v = 0; v < std::min(loops.size(), spec.views.size()); ++v)
@@ -151,6 +150,7 @@ bool inOrder(const Json& loops, const Spec& spec) {
   return true;
 }
 
+// Lacks the record a view or a layout of the spec, or are its views in another order?
 bool isOutgrown(const Json& record, const Spec& spec) {
   if (!record.contains("loops") || !record.contains("layouts")) return false;
   const Json &loops = record["loops"], &layouts = record["layouts"];

@@ -9,6 +9,7 @@
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "echo/ecg_waves.h"
+#include "echo/r_wave_beats.h"
 #include "hdf/hdf5_input.h"
 #include "scene/scan_geometry.h"
 #include "signal/scan_conversion.h"
@@ -173,18 +174,13 @@ void takeEcg(const BeamRecording& r, EchoLoop& loop) {
     return;
   }
   const std::vector<double> waves_s = rWavesOf(r, v);
-  std::vector<double> steps;
-  for (std::size_t i = 0; i < waves_s.size(); ++i) {
-    if (i > 0) steps.push_back(waves_s[i] - waves_s[i - 1]);
-    const double at = waves_s[i] - r.times_s.front(), half = 0.5 / v.rate.hz;
-    if (at > -half && waves_s[i] <= r.times_s.back() + half)
-      v.r_waves_s.push_back(std::max(0.0, at));
+  for (const double wave_s : waves_s) {
+    const double at = wave_s - r.times_s.front(), half = 0.5 / v.rate.hz;
+    if (at > -half && wave_s <= r.times_s.back() + half) v.r_waves_s.push_back(std::max(0.0, at));
   }
   if (!v.r_waves_s.empty()) loop.beat_anchor = "ECG of the recording";
-  if (steps.empty()) return;
-  std::nth_element(steps.begin(), steps.begin() + static_cast<std::ptrdiff_t>(steps.size() / 2),
-                   steps.end());
-  v.heart_rate_bpm = 60 / steps[steps.size() / 2];
+  if (waves_s.size() < 2) return;
+  v.heart_rate_bpm = 60 / beatOfRWaves(waves_s, 0).median;
   v.heart_rate_source = "ECG of the recording";
 }
 

@@ -144,8 +144,9 @@ void refuseOfExact(const std::filesystem::path& path, const SideOptions& side, b
                                    prefix, option, path.string()));
 }
 
+// Some scanners give the end behind the last pixel.
 bool insidePicture(const UltrasoundRegion& r, const Video& v) {
-  return r.max_x < v.width && r.max_y < v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
+  return r.max_x <= v.width && r.max_y <= v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
 }
 
 // The region that holds the sector has the size of a pixel. A region that extends outside the

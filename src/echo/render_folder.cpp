@@ -139,8 +139,9 @@ class RenderedFiles {
   std::map<std::string, std::string> digests_;
 };
 
-// The exact greys, when every frame's EXR has them.
-void takeTracedGreys(const RenderedFiles& files, const UnorderedJson& scene, EchoLoop& loop) {
+// The exact greys, when every frame's EXR has them. `numbers`: of the frames in the scene's loop.
+void takeTracedGreys(const RenderedFiles& files, const UnorderedJson& scene,
+                     const std::vector<int>& numbers, EchoLoop& loop) {
   loop.grey_source = "cine.avi";
   const UnorderedJson &p = scene.at("probe"), &channels = scene.at("output").at("channels");
   if (std::find(channels.begin(), channels.end(), channelName(Channel::display)) ==
@@ -162,7 +163,7 @@ void takeTracedGreys(const RenderedFiles& files, const UnorderedJson& scene, Ech
   std::atomic<int> unread{-1};
   parallelBlocks(t.frames.size(), 1, [&](std::size_t begin, std::size_t end) {
     for (std::size_t f = begin; f < end && unread < 0; ++f) {
-      const int frame = static_cast<int>(f);
+      const int frame = numbers[f];
       const std::string exr = "intensity/" + ExrStack::fileName(frame);
       std::optional<std::vector<float>> plane;
       if (files.holds(exr))
@@ -215,10 +216,12 @@ EchoLoop readRenderFolder(const std::filesystem::path& folder) {
     loop.video.repeats.clear();  // frames that do not move are no repeats here
     takeGeometry(manifest.at("scene"), loop, name);
     takeFrames(manifest.at("frames"), loop);
+    std::vector<int> numbers;
+    for (const UnorderedJson& frame : manifest.at("frames")) numbers.push_back(frame.at("index"));
     loop.lv_cavity = leftVentricle(manifest.at("scene").at("structures"));
     loop.scene_sha256 = manifest.at("scene_sha256");
     if (loop.phases.size() == loop.video.frames.size())
-      takeTracedGreys(files, manifest.at("scene"), loop);
+      takeTracedGreys(files, manifest.at("scene"), numbers, loop);
   } catch (const UnorderedJson::exception&) {  // its words are not for users
     failOfDamage(name, "a key is absent or of another type");
   }

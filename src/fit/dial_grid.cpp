@@ -43,19 +43,24 @@ std::vector<ScanPoint> pointsOf(const std::vector<ScanAxis>& axes) {
   return points;
 }
 
-// Least squares of a paraboloid in steps about the best point.
-void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
-  const std::size_t n = axes.size(), unknowns = 1 + n + n * (n + 1) / 2;
-  const auto steps = [&](const ScanPoint& p, std::size_t a) {
-    return (p.values[a] - grid.points[grid.best].values[a]) / axes[a].step;
+// Least squares of a paraboloid in steps about the best point. Two values of an axis have no
+// curvature: such axes are held at the best point.
+void fitParaboloid(const std::vector<ScanAxis>& all, DialGrid& grid) {
+  std::vector<std::size_t> fitted;
+  for (std::size_t a = 0; a < all.size(); ++a)
+    if (all[a].values().size() > 2) fitted.push_back(a);
+  const std::size_t n = fitted.size(), unknowns = 1 + n + n * (n + 1) / 2;
+  const std::vector<double>& best = grid.points[grid.best].values;
+  const auto steps = [&](const ScanPoint& p, std::size_t i) {
+    return (p.values[fitted[i]] - best[fitted[i]]) / all[fitted[i]].step;
   };
-  std::size_t fewest = 3;  // values of an axis: two of them have no curvature
-  for (const ScanAxis& axis : axes) fewest = std::min(fewest, axis.values().size());
   cv::Mat rows(0, static_cast<int>(unknowns), CV_64F), right(0, 1, CV_64F);
   for (const ScanPoint& p : grid.points) {
     cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
     int at = 0;
     bool near = true;
+    for (std::size_t a = 0; a < all.size(); ++a)
+      near = near && (all[a].values().size() > 2 || p.values[a] == best[a]);
     row.at<double>(at++) = 1;
     for (std::size_t a = 0; a < n; ++a) {
       near = near && std::abs(steps(p, a)) < 2.5;
@@ -67,19 +72,21 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
     rows.push_back(row);
     right.push_back(p.found.discrepancy);
   }
-  if (rows.rows <= static_cast<int>(unknowns) || fewest < 3) return;
+  if (n == 0 || rows.rows <= static_cast<int>(unknowns)) return;
   cv::Mat x, hessian(static_cast<int>(n), static_cast<int>(n), CV_64F), values, move;
   if (!cv::solve(rows, right, x, cv::DECOMP_SVD) || !cv::checkRange(x)) return;
   int at = 1 + static_cast<int>(n);
   for (int a = 0; a < static_cast<int>(n); ++a)
     for (int b = 0; b <= a; ++b, ++at)
       hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
-  for (int a = 0; a < static_cast<int>(n); ++a) grid.curvature.push_back(hessian.at<double>(a, a));
+  const bool is_whole = n == all.size();  // else only the minimum is known
+  for (int a = 0; is_whole && a < static_cast<int>(n); ++a)
+    grid.curvature.push_back(hessian.at<double>(a, a));
   if (!cv::eigen(hessian, values) || !(values.at<double>(values.rows - 1) > 0)) return;
   // Correlations of the dials' errors, from the inverse.
   cv::Mat inverse;
   if (cv::invert(hessian, inverse) == 0 || !cv::checkRange(inverse)) return;
-  for (int a = 0; a < static_cast<int>(n); ++a) {
+  for (int a = 0; is_whole && a < static_cast<int>(n); ++a) {
     grid.confounding.emplace_back();
     for (int b = 0; b < static_cast<int>(n); ++b)
       grid.confounding.back().push_back(
@@ -87,11 +94,12 @@ void fitParaboloid(const std::vector<ScanAxis>& axes, DialGrid& grid) {
           std::sqrt(inverse.at<double>(a, a) * inverse.at<double>(b, b)));
   }
   move = -inverse * x.rowRange(1, 1 + static_cast<int>(n));
-  for (std::size_t a = 0; a < n; ++a) {
-    const ScanAxis& axis = axes[a];
-    grid.minimum.push_back(std::clamp(
-        grid.points[grid.best].values[a] + move.at<double>(static_cast<int>(a)) * axis.step,
-        axis.range.low, axis.range.high));
+  grid.minimum = best;
+  for (std::size_t i = 0; i < n; ++i) {
+    const ScanAxis& axis = all[fitted[i]];
+    grid.minimum[fitted[i]] =
+        std::clamp(best[fitted[i]] + move.at<double>(static_cast<int>(i)) * axis.step,
+                   axis.range.low, axis.range.high);
   }
 }
 

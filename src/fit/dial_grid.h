@@ -22,8 +22,9 @@ struct ScanPoint {
 struct DialGrid {
   std::vector<ScanPoint> points;  // the last axis fastest
   std::size_t best = 0;
-  // Minimum of the paraboloid through the points within two steps of the best. Empty if there are
-  // too few points or the paraboloid has no minimum.
+  // Minimum of the paraboloid through the points within two steps of the best. Axes of two values
+  // stay at the best point; there is no curvature and no confounding then. Empty if there are too
+  // few points or the paraboloid has no minimum.
   std::vector<double> minimum;
   std::vector<double> curvature;                 // D per square of a step, by axis
   std::vector<std::vector<double>> confounding;  // -1..1 between axes; at 1 or -1 a change of one

@@ -71,6 +71,8 @@ std::map<std::string, double> parseDials(const std::string& text) {
     if (!out.emplace(sides[0], value).second)
       throw SceneError(fmt::format("--dials: {} is given twice", sides[0]));
   }
+  if (const std::string fault = heart::contradictionIn(out); !fault.empty())
+    throw SceneError("--dials: " + fault);
   return out;
 }
 

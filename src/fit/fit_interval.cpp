@@ -119,7 +119,8 @@ void addResults(const FitCost& cost, const FitDescent& best, HeartFit& fit) {
 void addRivals(const FitCost& cost, const std::vector<FitDescent>& descents, HeartFit& fit) {
   for (std::size_t i = 1; i < descents.size(); ++i) {
     const FitPlace& other = descents[i].best;
-    HeartRival rival{cost.dialsAt(other.at), 0, 0, {}, other.cost - fit.cost};
+    // A best heart that had to be moved (makePossible) may have become worse than its rivals.
+    HeartRival rival{cost.dialsAt(other.at), 0, 0, {}, std::max(0.0, other.cost - fit.cost)};
     rival.gls = strainAt(rival.dials);
     const PriorDials dials = priorDialsOf(rival.dials);
     rival.ef = dials[kEf], rival.edv_ml = dials[kEdv_ml];

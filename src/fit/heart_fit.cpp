@@ -29,16 +29,13 @@ std::vector<DialRange> rangesOf(const HeartFitOptions& options, std::size_t view
   const auto keys = options.searched.value_or(dialsSearchedIn(views, options.ownLook(views)));
   if (options.searched) checkSearched(*options.searched);
   std::vector<DialRange> out;
-  std::string accepted;
-  for (const SearchedDial& dial : searchedDials()) {
-    accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
+  for (const SearchedDial& dial : searchedDials())
     if (std::find(keys.begin(), keys.end(), dial.range.key) != keys.end() &&
         !isFixed(dial.range.key, options.dials))
       out.push_back(dial.range);
-  }
   if (out.empty())
-    throw SceneError(
-        fmt::format("searched: names no dial, accepted: one of {} that is not fixed", accepted));
+    throw SceneError(fmt::format("searched: names no dial, accepted: one of {} that is not fixed",
+                                 searchedKeys()));
   return out;
 }
 

@@ -105,7 +105,8 @@ struct HeartFit {
   std::optional<Estimate> ef;
   std::optional<Estimate> edv_ml, esv_ml;  // empty without a length scale too
   std::optional<Estimate> gls;             // Eq. 17 at end-systole; negative
-  // By dial, the error of the same fit of the found heart's own rendered loops. Not subtracted.
+  // By dial, the error of the same fit of the found heart's own rendered loops, in which
+  // heart::SectionShape is held. Not subtracted.
   std::map<std::string, double> own_error;
   // By dial, Eq. 19; no SD is smaller. Empty without resamples.
   std::map<std::string, double> resampled_sd;

@@ -89,10 +89,12 @@ PoseFound refinePose(const ModelLoop& model, const echo::EchoStack& real, const 
 namespace {
 
 // The lower one, with the optima of the other that stand apart from it among its rivals.
-PoseFound lowerOf(PoseFound found, PoseFound other) {
+// `fine`: the discrepancy of rivals.
+PoseFound lowerOf(PoseFound found, PoseFound other,
+                  const std::function<double(const FitPose&)>& fine) {
   if (other.discrepancy < found.discrepancy) std::swap(found, other);
   std::vector<std::pair<FitPose, double>> all = std::move(found.rivals);
-  all.emplace_back(other.pose, other.discrepancy);
+  all.emplace_back(other.pose, fine(other.pose));
   all.insert(all.end(), other.rivals.begin(), other.rivals.end());
   std::stable_sort(all.begin(), all.end(),
                    [](const auto& a, const auto& b) { return a.second < b.second; });
@@ -124,11 +126,14 @@ PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const 
   std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2),
                    all.end(), [](const Descent& a, const Descent& b) { return a.value < b.value; });
   const double median = all[all.size() / 2].value;
+  const auto fine = [&](const FitPose& pose) {
+    return fitDiscrepancy(fitTerms(model, real, pose, kFine), weights);
+  };
   PoseFound out = refinePose(model, real, weights, limits, starts);
-  if (!also.empty()) out = lowerOf(std::move(out), refinePose(model, real, weights, limits, also));
+  if (!also.empty())
+    out = lowerOf(std::move(out), refinePose(model, real, weights, limits, also), fine);
   const double next = out.rivals.empty() ? median : out.rivals.front().second;
-  out.confidence =
-      confidenceOf(fitDiscrepancy(fitTerms(model, real, out.pose, kFine), weights), next, median);
+  out.confidence = confidenceOf(fine(out.pose), next, median);
   return out;
 }
 

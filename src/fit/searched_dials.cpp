@@ -38,14 +38,18 @@ std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look) {
   return keys;
 }
 
-void checkSearched(const std::vector<std::string>& keys) {
-  std::string accepted;
+std::string searchedKeys() {
+  std::string keys;
   for (const SearchedDial& dial : searchedDials())
-    accepted += (accepted.empty() ? "" : ", ") + dial.range.key;
+    keys += (keys.empty() ? "" : ", ") + dial.range.key;
+  return keys;
+}
+
+void checkSearched(const std::vector<std::string>& keys) {
   for (const std::string& key : keys)
     if (std::none_of(searchedDials().begin(), searchedDials().end(),
                      [&](const SearchedDial& dial) { return dial.range.key == key; }))
-      throw SceneError(fmt::format("searched: is \"{}\", accepted: {}", key, accepted));
+      throw SceneError(fmt::format("searched: is \"{}\", accepted: {}", key, searchedKeys()));
 }
 
 bool isFixed(const std::string& key, const std::map<std::string, double>& dials) {

@@ -25,6 +25,8 @@ const std::vector<SearchedDial>& searchedDials();
 // without a polish do not find the minimum of so many dials.
 std::vector<std::string> dialsSearchedIn(std::size_t views, bool own_look);
 
+// Their keys, for messages.
+std::string searchedKeys();
 // Throws SceneError for a key that is not in searchedDials().
 void checkSearched(const std::vector<std::string>& keys);
 

@@ -45,7 +45,7 @@ const TruthMaker* TruthSource::maker() const {
 }
 
 // Velocity is taken from a millisecond before to one after, within the loop; rolling lines may
-// begin a little before it.
+// begin a little before it and end a little after it.
 FrameTruth TruthSource::ofInstant(const FrameTime& time, TruthShared shared,
                                   bool planes_only) const {
   std::shared_ptr<PathSpace> space;
@@ -56,7 +56,7 @@ FrameTruth TruthSource::ofInstant(const FrameTime& time, TruthShared shared,
   constexpr double kStep_s = 1e-3;
   const double end_s = clock_.frameCount() / scene_.acquisition.frame_rate_hz;
   const double before_s = std::max(time.time_s - kStep_s, std::min(time.time_s, 0.0)),
-               after_s = std::min(time.time_s + kStep_s, end_s);
+               after_s = std::min(time.time_s + kStep_s, std::max(time.time_s, end_s));
   return maker()->at({time.phase, clock_.atTime(before_s).phase, clock_.atTime(after_s).phase,
                       after_s - before_s, planes_only},
                      shared);
@@ -100,7 +100,8 @@ FrameTruth TruthSource::at(const FrameTime& time, const Workspace* traced) const
     for (Contour& contour : truth.contours)
       if (wantsVisible(scene_, contour.surface))
         contour.visible =
-            visiblePoints(contour, scene_.probe, traced->greys, scene_.signal.dynamic_range_db);
+            visiblePoints(contour, scene_.structures[index(contour.surface)].membrane, scene_.probe,
+                          traced->greys, scene_.signal.dynamic_range_db);
   return truth;
 }
 

@@ -6,8 +6,8 @@ namespace {
 
 // Size of a kept frame: its planes, by far the largest part.
 std::size_t bytesOf(const PolarFrame& polar) {
-  const std::size_t planes =
-      polar.planes.size() + (polar.intensities.empty() ? 0 : 1) + (polar.medium.empty() ? 0 : 1);
+  const std::size_t planes = polar.planes.size() + (polar.intensities.empty() ? 0 : 1) +
+                             (polar.medium.empty() ? 0 : 1) + (polar.field.empty() ? 0 : 3);
   return planes * sizeof(float) * static_cast<std::size_t>(polar.lines) *
          static_cast<std::size_t>(polar.samples);
 }

@@ -76,7 +76,7 @@ Vec3d placeAlong(const Contour& contour, std::size_t i, int step, double reach_m
 
 }  // namespace
 
-std::vector<char> visiblePoints(const Contour& contour, const Probe& probe,
+std::vector<char> visiblePoints(const Contour& contour, bool membrane, const Probe& probe,
                                 std::span<const float> greys, double range_db) {
   const ScanGeometry geometry(probe);
   const double turn = turnOf(contour.points_m) > 0 ? 1 : -1;
@@ -91,7 +91,7 @@ std::vector<char> visiblePoints(const Contour& contour, const Probe& probe,
     const Vec3d tangent = normalised(chord);
     const Vec3d outside = turn * Vec3d{tangent.z, 0, -tangent.x};
     const auto inner = levels.mean(tangent, outside, {-1e-3, -2e-3, -3e-3});
-    if (contour.closed) {
+    if (!membrane) {
       const auto outer = levels.mean(tangent, outside, {0.75e-3, 1.5e-3, 2.25e-3});
       visible[i] = inner && outer && std::abs(*outer - *inner) >= least;
     } else {

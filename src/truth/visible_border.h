@@ -16,10 +16,10 @@ inline constexpr double kVisibleStep_dB = 3;
 
 // One value per point of the contour, 1 if it is visible. `greys`: levels of the samples,
 // line-major, linear in dB over `range_db`. The two sides are means over 6 mm along the contour,
-// from 0.75 to 2.25 mm outside and from 1 to 3 mm inside; of an open contour either side is
-// compared with the sheet's own level, and both must be lower. Points outside the scan area are not
-// visible.
-std::vector<char> visiblePoints(const Contour& contour, const Probe& probe,
+// from 0.75 to 2.25 mm outside and from 1 to 3 mm inside; of a membrane, also of one that is cut in
+// a ring, either side is compared with the sheet's own level, and both must be lower. Points
+// outside the scan area are not visible.
+std::vector<char> visiblePoints(const Contour& contour, bool membrane, const Probe& probe,
                                 std::span<const float> greys, double range_db);
 
 }  // namespace echocine

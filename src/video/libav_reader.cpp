@@ -59,8 +59,8 @@ std::string reasonOf(int error) {
   return text;
 }
 
-// By which the packets of a whole Matroska file may end before its header says, beside a frame: a
-// sound track's last frame. Our choice.
+// Besides one frame, packets of a complete Matroska file may end this long before the stated
+// duration, because of the last frame of sound. Our choice.
 constexpr double kLoose_s = 0.1;
 
 // Owns what the C libraries hand out. A name goes into every message.
@@ -94,8 +94,10 @@ struct Decoder {
   // Duration that a Matroska file states; 0: none. Others have a number of frames, or guess it.
   double headerSeconds() const {
     const bool states = std::string_view(format->iformat->name).starts_with("matroska");
-    return states && format->duration > 0 ? static_cast<double>(format->duration) / AV_TIME_BASE
-                                          : 0;
+    return states && format->duration > 0 &&
+                   format->duration_estimation_method != AVFMT_DURATION_FROM_BITRATE
+               ? static_cast<double>(format->duration) / AV_TIME_BASE
+               : 0;
   }
   void open();
   void openCodec();

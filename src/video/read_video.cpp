@@ -71,7 +71,8 @@ Video readSequence(const std::filesystem::path& folder) {
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed)) {
     const std::string extension = extensionOf(entry.path());
     std::error_code dangling;
-    if (entry.is_regular_file(dangling) &&
+    // Names that begin with a dot are hidden: file systems keep attributes in such files.
+    if (entry.is_regular_file(dangling) && !entry.path().filename().string().starts_with('.') &&
         (extension == ".png" || extension == ".jpg" || extension == ".jpeg"))
       files.push_back(entry.path());
   }
@@ -83,7 +84,8 @@ Video readSequence(const std::filesystem::path& folder) {
                     "frames; give such a folder, or a video file",
                     folder.string()));
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
-    return namesInOrder(a.filename().string(), b.filename().string());
+    const std::string x = a.filename().string(), y = b.filename().string();
+    return namesInOrder(x, y) || (!namesInOrder(y, x) && x < y);  // 01 and 1: by their text
   });
   VideoBuilder builder(folder.string());
   for (const std::filesystem::path& file : files) {

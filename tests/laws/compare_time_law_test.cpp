@@ -80,6 +80,25 @@ TEST(TimeAlignmentLaw, AnchorsAreMetAndStraightBetween) {
   EXPECT_NEAR(t.place[15], 12 + 18.0 * 7 / 14, 1e-9);  // the rest of the beat, evenly
 }
 
+// R waves over several beats of other lengths than the stated one: frames outside them go on at the
+// mean pace.
+TEST(TimeAlignmentLaw, FramesOutsideRWavesOfSeveralBeatsGoOn) {
+  const Features s = wheel(even(30, 30)), r = wheel(even(170, 50));
+  const TimeAlignment t =
+      alignByAnchors({s, r, 30, 50, 1, {}}, {{10, 0}, {60, 30}, {110, 60}, {150, 90}});
+  const auto isAt = [&](std::size_t frame, double place) {
+    EXPECT_NEAR(std::remainder(t.place[frame] - place, 30), 0, 1e-9) << frame;
+  };
+  isAt(0, -6);
+  isAt(9, -0.6);
+  isAt(10, 0);
+  isAt(35, 15);
+  isAt(130, 15);
+  isAt(150, 0);
+  isAt(160, 6);
+  isAt(169, 11.4);
+}
+
 // One that is not there must not be found: a false beat pairs all frames wrongly.
 TEST(BeatLengthLaw, BeatsAreFoundAndTheirAbsenceToo) {
   const BeatLength two = findBeatLength(wheel(even(50, 20.4)), 5);

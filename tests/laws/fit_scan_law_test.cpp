@@ -36,6 +36,7 @@ TEST(CompareScan, ScansAreReadOrRefusedByName) {
   EXPECT_THROW(parseDials("hr"), SceneError);
   EXPECT_THROW(parseDials("hr=900"), SceneError);
   EXPECT_THROW(parseDials("ef=0.5,ef=0.6"), SceneError);
+  EXPECT_THROW(parseDials("lv-length=90,sphericity=0.6"), SceneError);
 }
 
 }  // namespace

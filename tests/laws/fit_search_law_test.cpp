@@ -63,7 +63,6 @@ TEST(FitDesign, DefaultDialsAreSearchedDials) {
     }
 }
 
-// The right atrium follows the left one, unless it is given.
 TEST(FitDesign, OnlySearchedDialsCanBeSearched) {
   checkSearched({"ef", "sphericity"});
   EXPECT_THROW(checkSearched({"ef", "wall_thickness"}), SceneError);
@@ -82,6 +81,7 @@ TEST(FitDesign, TheLengthGivesTheSphericityOfThePrior) {
     EXPECT_NEAR(by_length[i], priorDialsOf(round)[i], 1e-9) << kPriorDials[i];
 }
 
+// The right atrium follows the left one, unless it is given.
 TEST(FitDesign, TheRightAtriumFollowsTheLeft) {
   std::map<std::string, double> none{{"ef", 0.5}}, healthy{{"la-volume", 55}},
       large{{"la-volume", 110}}, given{{"la-volume", 110}, {"ra-volume", 40}};

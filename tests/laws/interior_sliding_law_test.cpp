@@ -2,9 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cmath>
 
 #include "core/hash_random.h"
+#include "core/stop.h"
 #include "motion/surfaces/interior_motion.h"
 #include "support/measured.h"
 #include "support/meshes.h"
@@ -90,6 +92,22 @@ TEST(InteriorSlidingLaw, AFrameOfAnotherFieldLeavesNothingBehind) {
   ASSERT_EQ(used.groups.size(), fresh.groups.size());
   for (std::size_t g = 0; g < fresh.groups.size(); ++g)
     EXPECT_EQ(used.groups[g].displacement_m, fresh.groups[g].displacement_m);
+}
+
+// A stop within a frame leaves groups of two fields. The frame is used again afterwards.
+TEST(InteriorSlidingLaw, AStoppedFrameIsSetAnew) {
+  const MotionField small(ballWithCavity(1)), large(ballWithCavity(1, 0.06));
+  FieldFrame used, fresh;
+  small.at(0.5, used);
+  for (const int checks : {0, 1, 2}) {
+    std::atomic<int> left = checks;
+    EXPECT_THROW(stoppable([&] { return left-- > 0; }, [&] { large.at(0.5, used); }), Stopped);
+    large.at(0.4, used);
+    large.at(0.4, fresh);
+    for (std::size_t g = 0; g < fresh.groups.size(); ++g)
+      EXPECT_EQ(used.groups[g].displacement_m, fresh.groups[g].displacement_m) << checks;
+    small.at(0.5, used);
+  }
 }
 
 }  // namespace

@@ -60,7 +60,7 @@ TEST(VisibleBorderLaw, AStepOnOneSideOfABallIsSeenThereAlone) {
     });
     for (const bool reversed : {false, true}) {
       const Contour ball = circle(kRadius_m, centre, reversed);
-      const std::vector<char> visible = visiblePoints(ball, probe, greys, kRange_db);
+      const std::vector<char> visible = visiblePoints(ball, false, probe, greys, kRange_db);
       ASSERT_EQ(visible.size(), ball.points_m.size());
       for (std::size_t i = 0; i < visible.size(); ++i) {
         if (ball.points_m[i].x < -4e-3) {
@@ -80,7 +80,7 @@ TEST(VisibleBorderLaw, NothingOutsideTheSectorIsSeen) {
   const Contour ball = circle(15e-3, centre, false);
   const std::vector<float> greys =
       greysBy(probe, [&](Vec3d p) { return length(p - centre) < 15e-3 ? 10.0 : 40.0; });
-  const std::vector<char> visible = visiblePoints(ball, probe, greys, kRange_db);
+  const std::vector<char> visible = visiblePoints(ball, false, probe, greys, kRange_db);
   int inside = 0;
   for (std::size_t i = 0; i < visible.size(); ++i) {
     const Vec3d p = ball.points_m[i];
@@ -100,12 +100,37 @@ TEST(VisibleBorderLaw, ASheetIsSeenWhereItExceedsBothSides) {
   const std::vector<float> greys = greysBy(probe, [&](Vec3d p) {
     return std::abs(p.z - 0.06) < 0.5e-3 && p.x < 0 ? 26.0 : p.z > 0.06 ? 20.0 : 18.0;
   });
-  const std::vector<char> visible = visiblePoints(sheet, probe, greys, kRange_db);
+  const std::vector<char> visible = visiblePoints(sheet, true, probe, greys, kRange_db);
   for (std::size_t i = 0; i < visible.size(); ++i) {
     if (sheet.points_m[i].x < -4e-3) {
       EXPECT_EQ(visible[i], 1) << i;
     }
     if (sheet.points_m[i].x > 4e-3) {
+      EXPECT_EQ(visible[i], 0) << i;
+    }
+  }
+}
+
+// Also a sheet that is cut in a ring, such as a funnel of leaflets in a short axis.
+TEST(VisibleBorderLaw, ARingOfASheetIsSeenWhereItExceedsBothSides) {
+  const Probe probe = sector();
+  Contour ring;
+  ring.closed = true;
+  constexpr double kRadius_m = 0.015;
+  const Vec3d middle{0, 0, 0.06};
+  for (int i = 0; i < 120; ++i) {
+    const double a = 2 * std::numbers::pi * i / 120;
+    ring.points_m.push_back(middle + kRadius_m * Vec3d{std::cos(a), 0, std::sin(a)});
+  }
+  const std::vector<float> greys = greysBy(probe, [&](Vec3d p) {
+    return std::abs(length(p - middle) - kRadius_m) < 0.5e-3 && p.x < 0 ? 26.0 : 18.0;
+  });
+  const std::vector<char> visible = visiblePoints(ring, true, probe, greys, kRange_db);
+  for (std::size_t i = 0; i < visible.size(); ++i) {
+    if (ring.points_m[i].x < -5e-3) {
+      EXPECT_EQ(visible[i], 1) << i;
+    }
+    if (ring.points_m[i].x > 5e-3) {
       EXPECT_EQ(visible[i], 0) << i;
     }
   }

@@ -152,6 +152,9 @@ def test_notebook(scene):
     moved["motion.mesh_scale"] = 0.5
     moved["motion.mesh_offset_mm"] = [0.0, 0.0, 40.0]
     assert outline_mm(moved) == pytest.approx(0.5 * outline_mm(scene) + np.array([0, 40, 0, 40]), abs=0.2)
+    linear = scene.copy()
+    linear.update({"probe.kind": "linear", "probe.sector_deg": None, "probe.width_mm": 200.0})
+    assert "M-100.0 0L-100.0 100.0" in linear._repr_html_() and 'viewBox="-105.0 -10.0 210.0 120.0"' in linear._repr_html_()
     placed = echocine.heart(keyframes=4)
     placed.update({"probe.apex": None, "probe.axis": None, "probe.lateral": None, "probe.depth_mm": None, "probe.view": "a4c"})
     assert "figcaption" in placed._repr_html_()

@@ -255,3 +255,6 @@ def test_media_of_any_name_read_back():
         scene[f"media.{name}.density_kg_m3"] = 1041.0
         assert scene[f"media.{name}.density_kg_m3"] == 1041.0
         assert f"media.{name}.density_kg_m3" in scene.keys()
+        assert scene[f"media.{name}.backscatter.kind"] == "none"
+        scene.update({f"media.{name}.backscatter.kind": "fixed", f"media.{name}.backscatter.per_cm_sr": 1e-3})
+        assert scene[f"media.{name}.backscatter.per_cm_sr"] == 1e-3

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include <algorithm>
 
 #include "support/loop_reading.h"
@@ -73,6 +75,7 @@ TEST_F(Reading, NumbersInNamesCountByValue) {
   d.frames = 12;
   const std::vector<PixelPlane> dozen = drawnLoop(d);
   writePictures(folder / "png", coloured(dozen, 320, 240), ".png");  // frame_10 after frame_9
+  folder.write("png/._frame_3.png", "attributes that a file system keeps");
   EXPECT_EQ(worstDifference(readVideo(folder / "png").frames, dozen), 0);
 }
 
@@ -85,15 +88,17 @@ TEST_F(Reading, RepeatsAreNamed) {
 }
 
 TEST_F(Reading, TagsOfAnotherPictureSizeAreCorrected) {
-  const auto region = [](int factor) {
-    return [factor](DcmDataset& data) {
+  const auto region = [](int factor, bool whole = false) {
+    return [factor, whole](DcmDataset& data) {
       DcmItem* item = nullptr;
       data.findOrCreateSequenceItem(DCM_SequenceOfUltrasoundRegions, item);
       item->putAndInsertUint16(DCM_RegionDataType, 1);
-      const Uint32 box[4] = {10, 2, 310, 232};
+      // Some scanners give the end behind the last pixel.
+      const std::array<Uint32, 4> box =
+          whole ? std::array<Uint32, 4>{0, 0, 320, 240} : std::array<Uint32, 4>{10, 2, 310, 232};
       const DcmTagKey keys[4] = {DCM_RegionLocationMinX0, DCM_RegionLocationMinY0,
                                  DCM_RegionLocationMaxX1, DCM_RegionLocationMaxY1};
-      for (int i = 0; i < 4; ++i)
+      for (std::size_t i = 0; i < 4; ++i)
         item->putAndInsertUint32(keys[i], box[i] * static_cast<Uint32>(factor));
       item->putAndInsertUint16(DCM_PhysicalUnitsXDirection, 3);
       item->putAndInsertUint16(DCM_PhysicalUnitsYDirection, 3);
@@ -109,6 +114,10 @@ TEST_F(Reading, TagsOfAnotherPictureSizeAreCorrected) {
     EXPECT_NEAR(*loop.metres_per_pixel, 7e-4, 1e-9) << factor;
     EXPECT_EQ(loop.video.notes.empty(), factor == 1);
   }
+  writeDicom(folder / "whole.dcm", frames, 320, 240, DicomKind::grey, region(1, true));
+  const EchoLoop whole = readLoop(folder / "whole.dcm", {}, true);
+  EXPECT_NEAR(whole.metres_per_pixel.value_or(0), 7e-4, 1e-9);
+  EXPECT_TRUE(whole.video.notes.empty());
 }
 
 TEST_F(Reading, HeartRatesOfTagsAreTakenWhereAHeartCanBeatSo) {

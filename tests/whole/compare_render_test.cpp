@@ -127,6 +127,14 @@ TEST(ComparedRender, GreysOfARenderAreThoseOfItsExrWhereItHasThem) {
   EXPECT_EQ(exact.synthetic.grey_source, "EXR display.Y");
   EXPECT_EQ(exact.discrepancy, 0);
   EXPECT_EQ(exact.mean_before.rms, 0);
+  // The files of a part of a loop have the numbers of its frames.
+  EXPECT_EQ(runShell("%B render '" + (folder / "scene.toml").string() + "' -o '" +
+                     (folder / "part").string() + "' --frames 2:6 --quiet")
+                .code,
+            0);
+  CompareOptions part = options;
+  part.synthetic = folder / "part";
+  withThreads(2, [&] { EXPECT_EQ(compareLoops(part).synthetic.grey_source, "EXR display.Y"); });
   std::filesystem::remove(folder / "loop/intensity/frame_0003.exr");
   const Comparison cine = compared();
   EXPECT_EQ(cine.synthetic.grey_source, "cine.avi");

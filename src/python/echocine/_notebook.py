@@ -125,14 +125,17 @@ def scene_svg(scene: "Scene") -> str:
     kind = scene["probe.kind"]
     if kind == "radial":
         shape = f"M{-depth:.1f} 0A{depth:.1f} {depth:.1f} 0 0 0 {depth:.1f} 0A{depth:.1f} {depth:.1f} 0 0 0 {-depth:.1f} 0Z"
-        above = depth
+        half_width, top = depth, -depth
     elif kind == "linear":
-        x, above = float(scene["probe.width_mm"]) / 2, 0.0
-        shape = f"M{-x:.1f} 0L{-x:.1f} {depth:.1f}L{x:.1f} {depth:.1f}L{x:.1f} 0Z"
+        half_width, top = float(scene["probe.width_mm"]) / 2, 0.0
+        shape = f"M{-half_width:.1f} 0L{-half_width:.1f} {depth:.1f}L{half_width:.1f} {depth:.1f}L{half_width:.1f} 0Z"
     else:
-        half, above = np.deg2rad(float(scene["probe.sector_deg"] or 0.0) / 2), 0.0
+        half = np.deg2rad(float(scene["probe.sector_deg"] or 0.0) / 2)
         x, y = depth * np.sin(half), depth * np.cos(half)
         shape = f"M0 0L{-x:.1f} {y:.1f}A{depth:.1f} {depth:.1f} 0 0 0 {x:.1f} {y:.1f}Z"
+        half_width, top = depth / 1.6, 0.0
+    half_width = max(half_width + 5, depth / 1.6)
     sector = f'<path d="{shape}" fill="#8882" stroke="#888" stroke-width="0.5"/>'
-    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="360" height="360" viewBox="{-1.1 * depth if above else -depth / 1.6:.1f} '
-            f'{-above - 10:.1f} {2.2 * depth if above else depth * 1.25:.1f} {depth + above + 20:.1f}" role="img" aria-label="sector and structures">{sector}{"".join(paths)}</svg>')
+    box = f"{-half_width:.1f} {top - 10:.1f} {2 * half_width:.1f} {depth - top + 20:.1f}"
+    return (f'<svg xmlns="http://www.w3.org/2000/svg" width="360" height="360" viewBox="{box}" role="img" '
+            f'aria-label="sector and structures">{sector}{"".join(paths)}</svg>')

@@ -156,8 +156,11 @@ class Scene:
         parts = key.split(".")
         if parts[0] == "structure" and len(parts) >= 3:
             return self._structure(document, ".".join(parts[1:-1])), parts[-1]
-        if parts[0] == "media" and len(parts) >= 3:  # a medium's name may have dots
-            parts = ["media", ".".join(parts[1:-1]), parts[-1]]
+        if parts[0] == "media":  # a medium's name may have dots
+            names = (".".join(parts[1:n]) for n in range(len(parts) - 1, 1, -1))
+            known = next((name for name in names if name in document.get("media", {})), None)
+            if known is not None:
+                parts = ["media", known, *parts[2 + known.count("."):]]
         table = document
         for part in parts[:-1]:
             if make and part not in table:
