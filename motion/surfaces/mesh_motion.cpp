@@ -192,7 +192,7 @@ MeshMotion::MeshMotion(const KeyframeSet& set, const Scene& scene)
     const std::size_t s = order[i];
     try {
       const Structure& structure = scene.structures[s];
-      // What stands out of the mesh may reach the plane: relief, or half a leaflet's body at most.
+      // Relief and the body of a leaflet stand out of the mesh, so they may reach the plane.
       const double aside_m =
           trabeculaeReach(scene, structure) + leafletThickness(scene, structure) + slices_m;
       const MeshTags& tags = set.structures[s].front().mesh.tags;

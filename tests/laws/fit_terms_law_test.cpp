@@ -56,6 +56,11 @@ TEST(CompareFit, BloodIsNeverBrighter) {
       greys->add(i % 2, i % 2, 1, i % 13 / 13.0, i % 2 == 0 ? 30 : 120, 1);
   EXPECT_NEAR(right.fit().ratio(), 0, 1e-6);
   EXPECT_NEAR(wrong.fit().ratio(), 1, 1e-6);
+  // Also if the first blood of the model is not in the picture.
+  TissueGreys unseen({true, true, false});
+  for (int i = 0; i < 200; ++i)
+    unseen.add(1 + i % 2, 1 + i % 2, 1, i % 13 / 13.0, i % 2 == 0 ? 120 : 30, 1);
+  EXPECT_NEAR(unseen.fit().ratio(), 1, 1e-6);
 }
 
 // A bowl and a deeper one beside it: both bottoms are found, the deeper one first, and the limit is

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include <algorithm>
+#include <array>
 
 #include "support/loop_reading.h"
 #include "support/run_program.h"
