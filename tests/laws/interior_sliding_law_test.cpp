@@ -101,7 +101,7 @@ TEST(InteriorSlidingLaw, AStoppedFrameIsSetAnew) {
   small.at(0.5, used);
   for (const int checks : {0, 1, 2}) {
     std::atomic<int> left = checks;
-    EXPECT_THROW(stoppable([&] { return left-- > 0; }, [&] { large.at(0.5, used); }), Stopped);
+    EXPECT_THROW(stoppable([&] { return left-- <= 0; }, [&] { large.at(0.5, used); }), Stopped);
     large.at(0.4, used);
     large.at(0.4, fresh);
     for (std::size_t g = 0; g < fresh.groups.size(); ++g)
