@@ -42,6 +42,10 @@ void Simulator::frame(double time_s, Frame& made) const {
   made.samples = scene().probe.samples;
   std::swap(made.greys, w->greys);
   std::swap(made.image, w->image);
+  // Planes of another scene's frame stay out of this one's workspace.
+  std::erase_if(made.channels, [&](const auto& plane) {
+    return w->polar.planes.find(plane.first) == w->polar.planes.end();
+  });
   std::swap(made.channels, w->polar.planes);
   made.medium.clear();  // white may have had it traced
   if (wants(scene(), Channel::medium)) std::swap(made.medium, w->polar.medium);

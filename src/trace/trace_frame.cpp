@@ -157,11 +157,6 @@ void reservePlanes(const Probe& probe, const PlaneRequest& request, PolarFrame& 
   frame.traces.resize(static_cast<std::size_t>(probe.lines));
   const std::size_t size =
       static_cast<std::size_t>(probe.lines) * static_cast<std::size_t>(probe.samples);
-  // A frame may have been used for another scene.
-  std::erase_if(frame.planes, [&](const auto& plane) {
-    return std::find(request.channels.begin(), request.channels.end(), plane.first) ==
-           request.channels.end();
-  });
   for (const Channel channel : request.channels) {
     if (channel == Channel::medium)
       frame.medium.resize(size);

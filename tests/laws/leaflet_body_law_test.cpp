@@ -154,6 +154,20 @@ TEST(LeafletBodies, ScatterersFillTheBody) {
   EXPECT_NEAR(std::sqrt(squares / count), 1 / std::sqrt(12.0), 0.1 / std::sqrt(12.0));
 }
 
+// A leaflet is left out if its box over the loop does not meet the sector: the box holds the body.
+TEST(LeafletBodies, TheBoxOverTheLoopHoldsTheBody) {
+  const Scene scene = thickLeaflets({}, 8e-3, 4e-3);
+  const Thick thick(scene);
+  for (std::size_t s = 0; s < scene.structures.size(); ++s) {
+    if (!hasThickness(scene, scene.structures[s])) continue;
+    const Box& box = thick.motion.loopBoxes()[s];
+    for (const double phase : {0.0, 0.2, 0.45, 0.7, 0.9})
+      for (const Vec3f p : thick.at(phase).positions_m[s]) {
+        ASSERT_TRUE(box.contains(toDouble(p))) << scene.structures[s].name << ' ' << phase;
+      }
+  }
+}
+
 // Law: a sheet along the beam echoes by its faces alone, at 90 degrees next to nothing; its body
 // scatters. Beside an open leaflet of an apical view this is what shows it.
 TEST(LeafletBodies, AnOpenLeafletOfAnApicalViewShows) {

@@ -155,6 +155,25 @@ TEST(SimulatorFrame, CarriesTruthWhereTheSceneAsksForIt) {
   EXPECT_EQ(simulator.truthAt(frame.time).labels, frame.truth->labels);
 }
 
+// A frame's memory may come from a scene with other channels and another size.
+TEST(SimulatorFrame, KeepsNoChannelOfAnotherScene) {
+  Scene first = smallHeart(), second = smallHeart();
+  first.output.channels = {Channel::y, Channel::attenuation};
+  second.output.channels = {Channel::reflection};
+  second.probe.lines = 64;
+  second.probe.samples = 200;
+  const Simulator a(first), b(second);
+  Frame used;
+  a.frame(0.1, used);
+  for (const double time_s : {0.1, 0.2, 0.3}) {
+    b.frame(time_s, used);
+    EXPECT_EQ(used.channels, b.frame(time_s).channels) << time_s;
+  }
+  EXPECT_EQ(used.channels.size(), 1u);
+  a.frame(0.1, used);
+  EXPECT_EQ(used.channels, a.frame(0.1).channels);
+}
+
 TEST(SimulatorFrame, OutsideTheLoopIsRefusedByItsKeys) {
   const Simulator simulator(smallHeart());
   for (const double time_s : {-0.01, 1e9, std::numeric_limits<double>::quiet_NaN()}) {
