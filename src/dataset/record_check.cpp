@@ -144,8 +144,9 @@ std::string flawOf(const Json& record, const Spec& spec, int heart) {
 // Each loop has the view of its place in the spec, as far as both go.
 bool inOrder(const Json& loops, const Spec& spec) {
   for (std::size_t v = 0; v < std::min(loops.size(), spec.views.size()); ++v)
-    if (const Json& loop = loops[v];
-        loop.is_object() && loop.contains("view") && loop["view"] != keyOf(spec.views[v]))
+    if (const Json& loop = loops[v]; loop.is_object() && loop.contains("view") &&
+                                     loop["view"].is_string() &&
+                                     loop["view"] != keyOf(spec.views[v]))
       return false;
   return true;
 }
