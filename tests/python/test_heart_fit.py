@@ -97,7 +97,7 @@ def test_a_stop_comes_out(real):
     (None, {"tilt_deg": 21}, "tilt_deg: is 21, accepted: 0 to 20"),
     (None, {"resamples": 3}, "resamples: is 3, accepted: 0, or 4 to 10"),
     (None, {"starts": 0}, "starts and descents must be 1 or more"),
-    (None, {"searched": ["hr"]}, "searched: names no dial, accepted: one of ef, edv"),
+    (None, {"searched": ["hr"]}, 'searched: is "hr", accepted: ef, edv'),
     (None, {"searched": ["ef"], "ef": 0.5}, "searched: names no dial"),
     (None, {"ef": 3}, "dials: ef is 3, accepted"),
     (None, {"ef": "high"}, "dials: ef: is 'high', accepted: a number"),
