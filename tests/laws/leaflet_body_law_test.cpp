@@ -161,10 +161,11 @@ TEST(LeafletBodies, TheBoxOverTheLoopHoldsTheBody) {
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     if (!hasThickness(scene, scene.structures[s])) continue;
     const Box& box = thick.motion.loopBoxes()[s];
-    for (const double phase : {0.0, 0.2, 0.45, 0.7, 0.9})
-      for (const Vec3f p : thick.at(phase).positions_m[s]) {
+    for (const double phase : {0.0, 0.2, 0.45, 0.7, 0.9}) {
+      const SurfaceFrame frame = thick.at(phase);
+      for (const Vec3f p : frame.positions_m[s])
         ASSERT_TRUE(box.contains(toDouble(p))) << scene.structures[s].name << ' ' << phase;
-      }
+    }
   }
 }
 
