@@ -99,11 +99,21 @@ void takeTimes(DcmDataset& data, Video& video) {
   if (const double ms = numberOf(data, DCM_FrameTime); ms > 0)
     takeRate(1e3 / ms, "DICOM FrameTime", video);
   const std::vector<double> steps_ms = numbersOf(data, DCM_FrameTimeVector, kMostSteps);
-  double sum_ms = 0;
-  for (std::size_t i = 1; i < steps_ms.size(); ++i) sum_ms += steps_ms[i];
-  if (steps_ms.size() > 1)
-    takeRate(1e3 * static_cast<double>(steps_ms.size() - 1) / sum_ms, "DICOM FrameTimeVector",
-             video);
+  double sum_ms = 0, longest_ms = 0;
+  for (std::size_t i = 1; i < steps_ms.size(); ++i) {
+    sum_ms += steps_ms[i];
+    longest_ms = std::max(longest_ms, steps_ms[i]);
+  }
+  if (steps_ms.size() > 1) {
+    const double mean_ms = sum_ms / static_cast<double>(steps_ms.size() - 1);
+    takeRate(1e3 / mean_ms, "DICOM FrameTimeVector", video);
+    constexpr double kEven = 1.5;  // our choice
+    if (mean_ms > 0 && longest_ms > kEven * mean_ms)
+      video.notes.push_back(
+          fmt::format("its frames are not evenly spaced: the longest step is {:.1f} times the "
+                      "mean; used as if they were",
+                      longest_ms / mean_ms));
+  }
   takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
   takeHeartRate(data, video);
   const std::vector<double> waves_ms = numbersOf(data, DCM_RWaveTimeVector, kMostBeats);

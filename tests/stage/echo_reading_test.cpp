@@ -136,6 +136,15 @@ TEST_F(Reading, HeartRatesOfTagsAreTakenWhereAHeartCanBeatSo) {
   EXPECT_NE(none.notes[0].find("HeartRate"), std::string::npos);
 }
 
+TEST_F(Reading, UnevenFrameTimesAreNoted) {
+  for (const auto& [times, noted] :
+       {std::pair("0\\20\\21\\19\\20", 0u), {"0\\20\\20\\90\\20", 1u}}) {
+    writeDicom(folder / "loop.dcm", frames, 320, 240, DicomKind::grey,
+               [&](DcmDataset& data) { data.putAndInsertString(DCM_FrameTimeVector, times); });
+    EXPECT_EQ(readVideo(folder / "loop.dcm").notes.size(), noted) << times;
+  }
+}
+
 TEST_F(Reading, WhatIsNoLoopIsRefusedInOneLine) {
   writeLossless(folder / "one.avi", {frames[0]}, 320, 240);
   expectRefusal(folder / "one.avi", "still image");
