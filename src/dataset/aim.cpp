@@ -20,7 +20,7 @@ namespace echocine::dataset {
 
 namespace {
 
-constexpr std::string_view kHeart = "heart.", kScene = "scene.", kSegments = "segments.";
+constexpr std::string_view kHeart = "heart.", kScene = "scene.", kSegments = "heart.segments.";
 constexpr const char* kRule = "heart.rule";  // "volumes", as in `echocine heart --rule`
 
 double numberAt(const Values& values, const std::string& name, double fallback) {
@@ -139,10 +139,9 @@ void straightenRays(const Values& all, Scene& scene) {
 std::vector<std::string> segmentValues(const Spec& spec, const Values& values) {
   std::vector<std::string> names;
   for (const auto& [name, value] : values)
-    if (name.starts_with(kHeart) && name.substr(kHeart.size()).starts_with(kSegments))
-      names.push_back(name);
+    if (name.starts_with(kSegments)) names.push_back(name);
   const auto rank = [&](const std::string& name) {
-    const std::string rest = name.substr(kHeart.size() + kSegments.size());
+    const std::string rest = name.substr(kSegments.size());
     const std::size_t segments = segmentsOf(rest.substr(0, rest.find('.'))).size();
     return std::pair(spec.gives(name), -static_cast<int>(segments));
   };
@@ -154,14 +153,13 @@ std::vector<std::string> segmentValues(const Spec& spec, const Values& values) {
 heart::Parameters parametersOf(const Spec& spec, const Values& values) {
   std::map<std::string, double> dials;
   for (const auto& [name, value] : values)
-    if (name.starts_with(kHeart) && !name.substr(kHeart.size()).starts_with(kSegments) &&
-        name != kRule)
+    if (name.starts_with(kHeart) && !name.starts_with(kSegments) && name != kRule)
       dials[name.substr(kHeart.size())] = numberIn(value).value();
   heart::Parameters parameters = heart::parametersFrom(dials);
   parameters.volumes_rule = values.count(kRule) > 0;
   for (const std::string& name : segmentValues(spec, values))
-    setSegments(std::string_view(name).substr(kHeart.size() + kSegments.size()),
-                numberIn(values.at(name)).value(), parameters);
+    setSegments(std::string_view(name).substr(kSegments.size()), numberIn(values.at(name)).value(),
+                parameters);
   return parameters;
 }
 

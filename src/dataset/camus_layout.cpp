@@ -89,15 +89,13 @@ void writeView(const Heart& heart, const LoopSample& loop, const Json& entry, do
 void writeCamus(const Spec& spec, const Heart& heart, Sink& sink, Json& record) {
   const double ed_ml = biplaneOfViews(heart, false), es_ml = biplaneOfViews(heart, true);
   const bool traced = ed_ml > 0 && es_ml > 0;  // else a plane misses the long axis
+  const double of_views = ejectedPercent(ed_ml, es_ml);
+  const auto or_null = [&](double value) { return traced ? Json(value) : Json(); };
   for (std::size_t v = 0; v < heart.loops.size(); ++v) {
     Json& entry = record["loops"][v];
-    const double of_views = ejectedPercent(ed_ml, es_ml);
-    if (traced)
-      entry["camus"] = {
-          {"edv_views_ml", ed_ml}, {"esv_views_ml", es_ml}, {"ef_views_percent", of_views}};
-    else
-      entry["camus"] = {
-          {"edv_views_ml", nullptr}, {"esv_views_ml", nullptr}, {"ef_views_percent", nullptr}};
+    entry["camus"] = {{"edv_views_ml", or_null(ed_ml)},
+                      {"esv_views_ml", or_null(es_ml)},
+                      {"ef_views_percent", or_null(of_views)}};
     const bool exact = spec.hasExactEf("camus") || !traced;
     writeView(heart, heart.loops[v], entry, exact ? entry["ef_percent"].get<double>() : of_views,
               sink);

@@ -123,12 +123,7 @@ void takeRate(const BeamRecording& r, Video& video) {
   double longest = 0;
   for (std::size_t i = 1; i < r.frames; ++i)
     longest = std::max(longest, r.times_s[i] - r.times_s[i - 1]);
-  constexpr double kEven = 1.5;  // our choice
-  if (longest * hz > kEven)
-    video.notes.push_back(
-        fmt::format("its frames are not evenly spaced: the longest step is {:.1f} times the mean; "
-                    "used as if they were",
-                    longest * hz));
+  noteUnevenFrames(longest, 1 / hz, video);
 }
 
 // Between samples: the peak of the parabola through three of them.

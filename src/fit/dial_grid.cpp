@@ -46,9 +46,9 @@ std::vector<ScanPoint> pointsOf(const std::vector<ScanAxis>& axes) {
 // Least squares of a paraboloid in steps about the best point. Two values of an axis have no
 // curvature: such axes are held at the best point.
 void fitParaboloid(const std::vector<ScanAxis>& all, DialGrid& grid) {
-  std::vector<std::size_t> fitted;
+  std::vector<std::size_t> fitted, held;
   for (std::size_t a = 0; a < all.size(); ++a)
-    if (all[a].values().size() > 2) fitted.push_back(a);
+    (all[a].values().size() > 2 ? fitted : held).push_back(a);
   const std::size_t n = fitted.size(), unknowns = 1 + n + n * (n + 1) / 2;
   const std::vector<double>& best = grid.points[grid.best].values;
   const auto steps = [&](const ScanPoint& p, std::size_t i) {
@@ -58,9 +58,8 @@ void fitParaboloid(const std::vector<ScanAxis>& all, DialGrid& grid) {
   for (const ScanPoint& p : grid.points) {
     cv::Mat row(1, static_cast<int>(unknowns), CV_64F);
     int at = 0;
-    bool near = true;
-    for (std::size_t a = 0; a < all.size(); ++a)
-      near = near && (all[a].values().size() > 2 || p.values[a] == best[a]);
+    bool near = std::all_of(held.begin(), held.end(),
+                            [&](std::size_t a) { return p.values[a] == best[a]; });
     row.at<double>(at++) = 1;
     for (std::size_t a = 0; a < n; ++a) {
       near = near && std::abs(steps(p, a)) < 2.5;
@@ -79,7 +78,7 @@ void fitParaboloid(const std::vector<ScanAxis>& all, DialGrid& grid) {
   for (int a = 0; a < static_cast<int>(n); ++a)
     for (int b = 0; b <= a; ++b, ++at)
       hessian.at<double>(a, b) = hessian.at<double>(b, a) = x.at<double>(at) * (a == b ? 2 : 1);
-  const bool is_whole = n == all.size();  // else only the minimum is known
+  const bool is_whole = held.empty();  // else only the minimum is known
   for (int a = 0; is_whole && a < static_cast<int>(n); ++a)
     grid.curvature.push_back(hessian.at<double>(a, a));
   if (!cv::eigen(hessian, values) || !(values.at<double>(values.rows - 1) > 0)) return;

@@ -112,11 +112,6 @@ PoseFound lowerOf(PoseFound found, PoseFound other,
 }  // namespace
 
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
-                     const PoseLimits& limits) {
-  return searchPose(model, real, weights, limits, {});
-}
-
-PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
                      const PoseLimits& limits, const std::vector<FitPose>& also) {
   const DiscrepancyAt coarse(model, real, weights, {}, kCoarse);
   std::vector<Descent> all = lattice(std::cref(coarse), boxOf(limits, model.far_m), {4, 4, 2, 2});

@@ -31,12 +31,10 @@ struct PoseFound {
 // a few frames, then Newton's method with finite differences from the best five. The best result is
 // evaluated with all frames. Positions are continuous. Runs in parallel; the result does not depend
 // on the threads.
-PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
-                     const PoseLimits& limits);
-// Also from given poses. If one of them leads to a lower discrepancy, the optima of the search are
+// `also`: further starts. If one of them leads to a lower discrepancy, the optima of the search are
 // its rivals.
 PoseFound searchPose(const ModelLoop& model, const echo::EchoStack& real, const FitWeights& weights,
-                     const PoseLimits& limits, const std::vector<FitPose>& also);
+                     const PoseLimits& limits, const std::vector<FitPose>& also = {});
 
 // Starts only from given poses, moved into the limits, for a model close to one of known pose.
 // Precondition: all have the same time, lag and systole.

@@ -43,9 +43,8 @@ void Simulator::frame(double time_s, Frame& made) const {
   std::swap(made.greys, w->greys);
   std::swap(made.image, w->image);
   // Planes of another scene's frame stay out of this one's workspace.
-  std::erase_if(made.channels, [&](const auto& plane) {
-    return w->polar.planes.find(plane.first) == w->polar.planes.end();
-  });
+  std::erase_if(made.channels,
+                [&](const auto& plane) { return !w->polar.planes.contains(plane.first); });
   std::swap(made.channels, w->polar.planes);
   made.medium.clear();  // white may have had it traced
   if (wants(scene(), Channel::medium)) std::swap(made.medium, w->polar.medium);

@@ -91,24 +91,28 @@ py::dict probe(const NativeScene& native) {
   return entry;
 }
 
+[[noreturn]] void refuseName(const std::string& argument, const std::string& key,
+                             const std::vector<std::string>& accepted) {
+  throw SceneError(fmt::format("{}: is \"{}\", accepted: \"{}\"", argument, key,
+                               fmt::join(accepted, "\" | \"")));
+}
+
 }  // namespace
 
 View viewFrom(const std::string& argument, const std::string& key) {
   if (const auto view = heart::viewOf(key)) return *view;
-  std::string accepted;
-  for (const heart::ViewName& name : heart::viewNames())
-    accepted += fmt::format("{}\"{}\"", accepted.empty() ? "" : " | ", name.key);
-  throw SceneError(fmt::format("{}: is \"{}\", accepted: {}", argument, key, accepted));
+  std::vector<std::string> names;
+  for (const heart::ViewName& name : heart::viewNames()) names.emplace_back(name.key);
+  refuseName(argument, key, names);
 }
 
 namespace {
 
 Look lookFrom(const std::string& argument, const std::string& key) {
   if (const auto look = valueOf<Look>(key)) return *look;
-  std::string accepted;
-  for (const Named<Look>& look : NamesOf<Look>::kAll)
-    accepted += fmt::format("{}\"{}\"", accepted.empty() ? "" : " | ", look.name);
-  throw SceneError(fmt::format("{}: is \"{}\", accepted: {}", argument, key, accepted));
+  std::vector<std::string> names;
+  for (const Named<Look>& look : NamesOf<Look>::kAll) names.emplace_back(look.name);
+  refuseName(argument, key, names);
 }
 
 // Dials by the names that Python has for them: underscores for hyphens.

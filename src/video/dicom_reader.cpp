@@ -107,12 +107,7 @@ void takeTimes(DcmDataset& data, Video& video) {
   if (steps_ms.size() > 1) {
     const double mean_ms = sum_ms / static_cast<double>(steps_ms.size() - 1);
     takeRate(1e3 / mean_ms, "DICOM FrameTimeVector", video);
-    constexpr double kEven = 1.5;  // our choice
-    if (mean_ms > 0 && longest_ms > kEven * mean_ms)
-      video.notes.push_back(
-          fmt::format("its frames are not evenly spaced: the longest step is {:.1f} times the "
-                      "mean; used as if they were",
-                      longest_ms / mean_ms));
+    noteUnevenFrames(longest_ms, mean_ms, video);
   }
   takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
   takeHeartRate(data, video);

@@ -180,6 +180,15 @@ void VideoBuilder::add(const std::uint8_t* rgb, int width, int height, std::ptrd
   v.frames.push_back(std::move(grey));
 }
 
+void noteUnevenFrames(double longest, double mean, Video& video) {
+  constexpr double kEven = 1.5;  // our choice
+  if (mean > 0 && longest > kEven * mean)
+    video.notes.push_back(
+        fmt::format("its frames are not evenly spaced: the longest step is {:.1f} times the mean; "
+                    "used as if they were",
+                    longest / mean));
+}
+
 std::vector<int> findRepeats(const std::vector<PixelPlane>& frames) {
   std::vector<double> differences;
   for (std::size_t i = 1; i < frames.size(); ++i) {

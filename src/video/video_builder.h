@@ -51,6 +51,9 @@ class VideoBuilder {
   int tint_red_[17] = {}, tint_blue_[17] = {};
 };
 
+// Notes frames that are not evenly spaced, by their longest and their mean step, in one unit.
+void noteUnevenFrames(double longest, double mean, Video& video);
+
 // Frames whose mean difference from the previous one is below 5 % of the loop's typical difference.
 std::vector<int> findRepeats(const std::vector<PixelPlane>& frames);
 

@@ -45,7 +45,7 @@ TEST(FitPose, StartsOfDifferentTimesAreRefused) {
 }
 
 // A start that leads nowhere lower adds a rival at most; one that leads lower has the optima of the
-// search as rivals, so its confidence is no larger than they allow.
+// search as rivals.
 TEST(FitPose, AStartKeepsTheRivalsOfTheSearch) {
   FitPose off;
   off.shift_x_m = 0.025;
