@@ -109,10 +109,12 @@ void place(const ViewPlacement& placement, const HeartMarks& marks, double mesh_
   pose.origin = pose.origin - probe.face_radius_m * pose.z_axis;
   probe.pose = writable(pose, mesh_unit_m);
   if (probe.max_depth_m > 0) return;
-  const double half_rad = probe.isFan() ? probe.last_angle_rad : radiansFromDegrees(90);
+  const ProbePose at{probe.pose.origin, probe.pose.z_axis, probe.pose.x_axis};
+  const double scale = marks.frame.scale;
   const double deep_m =
-      fittingDepth(marks.outside_m, {probe.pose.origin, probe.pose.z_axis, probe.pose.x_axis},
-                   half_rad, marks.frame.scale) +
+      (probe.isFan()
+           ? fittingDepth(marks.outside_m, at, probe.last_angle_rad, scale)
+           : fittingDepth(marks.outside_m, at, probe.first_offset_m, probe.last_offset_m, scale)) +
       marks.wall_m - probe.face_radius_m;
   probe.max_depth_m = writableDepth(std::max(deep_m, 2 * probe.min_depth_m + 1e-3));
   if (probe.focus_m == 0) probe.focus_m = defaultFocus(probe.max_depth_m);

@@ -54,6 +54,8 @@ class Finder {
     findSides();
     findAorta();
     marks_.outside_m = outsideOf(surfaces_);
+    for (const Role role : {Role::la, Role::la_wall, Role::pericardium})
+      marks_.frame.has_left_atrium |= !facets(role).empty();
     marks_.front_m = frontOf(surfaces_);
     if (!hasWall(surfaces_)) marks_.wall_m = kWall * marks_.frame.length_m;
     return marks_;
@@ -273,18 +275,18 @@ void Finder::findAorta() {
 // A valve without its vessel: flow is across its ring, where that is flat, and what can be seen of
 // it is below the ring.
 void Finder::lookFromBelow() {
+  const Facets ring = facets(Role::aortic_valve);
+  if (ring.empty()) return;
   HeartFrame& f = marks_.frame;
-  if (const Facets ring = facets(Role::aortic_valve); !ring.empty()) {
-    const Vec3d widest = principalAxis(ring), next = principalAxis(ring, widest);
-    const Vec3d flow = normalised(cross(widest, next));
-    double along = 0, aside = 0;
-    for (const Facet& facet : ring) {
-      const Vec3d from = (1.0 / 3) * (facet[0] + facet[1] + facet[2]) - f.aortic;
-      along += areaOf(facet) * std::abs(dot(from, flow));
-      aside += areaOf(facet) * std::abs(dot(from, next));
-    }
-    if (along < kFlat * aside) f.aortic_flow = dot(flow, f.apical) < 0 ? flow : -flow;
+  const Vec3d widest = principalAxis(ring), next = principalAxis(ring, widest);
+  const Vec3d flow = normalised(cross(widest, next));
+  double along = 0, aside = 0;
+  for (const Facet& facet : ring) {
+    const Vec3d from = (1.0 / 3) * (facet[0] + facet[1] + facet[2]) - f.aortic;
+    along += areaOf(facet) * std::abs(dot(from, flow));
+    aside += areaOf(facet) * std::abs(dot(from, next));
   }
+  if (along < kFlat * aside) f.aortic_flow = dot(flow, f.apical) < 0 ? flow : -flow;
   f.aortic = f.aortic - kBelowRing * f.length_m * f.aortic_flow;
 }
 

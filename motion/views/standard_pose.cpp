@@ -62,7 +62,8 @@ Aim subcostal(const HeartFrame& heart, Vec3d target) {
 // the meshes lack. Our choices.
 Aim transoesophageal(const HeartFrame& heart, Vec3d base_point) {
   Aim aim = apical(heart, 0, base_point);
-  return {base_point, -aim.axis, aim.lateral, 0.005 * heart.scale, false, 0.5 * heart.length_m};
+  return {base_point,          -aim.axis, aim.lateral,
+          0.005 * heart.scale, false,     heart.has_left_atrium ? 0 : 0.5 * heart.length_m};
 }
 
 Aim aimOf(View view, const HeartFrame& heart) {
@@ -135,6 +136,16 @@ double reachBefore(const Aim& aim, std::span<const Facet> outside_m, double beam
   return reach_m;
 }
 
+// The part within the beam's thickness.
+Facets inBeam(std::span<const Facet> outside_m, const ProbePose& pose, double scale) {
+  const Vec3d up = cross(pose.axis, pose.lateral);
+  Facets shown{outside_m.begin(), outside_m.end()};
+  for (const double side : {1.0, -1.0})
+    shown = partAbove(
+        shown, [&](Vec3d p) { return side * dot(p - pose.apex, up); }, -kBeam_m * scale);
+  return shown;
+}
+
 }  // namespace
 
 Vec3d HeartFrame::about(double phi_rad) const {
@@ -162,13 +173,8 @@ StandardPlane standardPlane(View view, const HeartFrame& heart) {
 // A distance is largest at a corner of what the image holds of a facet.
 double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double half_rad,
                     double scale) {
-  const Vec3d up = cross(pose.axis, pose.lateral);
-  const double sine = std::sin(half_rad), cosine = std::cos(half_rad), beam_m = kBeam_m * scale;
-  Facets shown{outside_m.begin(), outside_m.end()};
-  shown = partAbove(
-      shown, [&](Vec3d p) { return dot(p - pose.apex, up); }, -beam_m);
-  shown = partAbove(
-      shown, [&](Vec3d p) { return -dot(p - pose.apex, up); }, -beam_m);
+  const double sine = std::sin(half_rad), cosine = std::cos(half_rad);
+  Facets shown = inBeam(outside_m, pose, scale);
   const auto beside = [&](double side) {
     shown = partAbove(
         shown,
@@ -184,6 +190,19 @@ double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, dou
   }
   // Continuous, not in steps as on a scanner: similar hearts have similar pictures.
   return farthestFrom(shown, pose.apex) + kBehind_m * scale;
+}
+
+double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double first_m,
+                    double last_m, double scale) {
+  Facets shown = inBeam(outside_m, pose, scale);
+  const auto aside = [&](Vec3d p) { return dot(p - pose.apex, pose.lateral); };
+  shown = partAbove(shown, aside, first_m);
+  shown = partAbove(
+      shown, [&](Vec3d p) { return -aside(p); }, -last_m);
+  double deepest_m = 0;
+  for (const Facet& facet : shown)
+    for (const Vec3d p : facet) deepest_m = std::max(deepest_m, dot(p - pose.apex, pose.axis));
+  return deepest_m + kBehind_m * scale;
 }
 
 ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet> outside_m,

@@ -18,8 +18,9 @@ struct HeartFrame {
   Vec3d apical{0, 0, 1};    // and along the long axis to the apex; left-handed in a mirrored heart
   double length_m = 0;      // of the left ventricle's long axis
   double scale = 1;         // of the body: 1 for an adult's
-  Vec3d apex, mitral, aortic;  // of the left ventricle's cavity; centres of the valves
-  Vec3d aortic_flow;           // unit, from the ventricle into the aorta
+  Vec3d apex, mitral, aortic;    // of the left ventricle's cavity; centres of the valves
+  Vec3d aortic_flow;             // unit, from the ventricle into the aorta
+  bool has_left_atrium = false;  // or its wall, or a pericardium: behind the base
 
   // The direction at an angle about the long axis: 0 lateral, 90 deg anterior, 180 deg septal.
   Vec3d about(double phi_rad) const;
@@ -59,5 +60,9 @@ ProbePose standardPose(View view, const HeartFrame& heart, std::span<const Facet
 // axis: at most a right angle, or pi for all round.
 double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double half_rad,
                     double scale);
+
+// The same for lines along the axis, at lateral places from first_m to last_m.
+double fittingDepth(std::span<const Facet> outside_m, const ProbePose& pose, double first_m,
+                    double last_m, double scale);
 
 }  // namespace echocine

@@ -1,11 +1,17 @@
 #include "archive/beam_loop.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
+#include <optional>
 
+#include "core/error.h"
 #include "core/parallel.h"
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/ecg.h"
+#include "motion/surfaces/mesh_motion.h"
 #include "motion/surfaces/probe_placement.h"
 #include "output/polar_plane.h"
 #include "output/scene_sha256.h"
@@ -136,7 +142,17 @@ void addFunction(const Loop& made, BeamLoop& loop) {
 BeamLoop makeBeamLoop(const Scene& given, int threads, const Monitor& monitor) {
   BeamLoop loop;
   loop.scene = archiveScene(placed(given));
-  const Simulator simulator(loop.scene);
+  const auto motion = std::make_shared<const MeshMotion>(loop.scene);
+  std::optional<const Simulator> made_for(std::in_place, loop.scene, motion);
+  passWarnings(*made_for, monitor);
+  try {
+    made_for->truth();
+  } catch (const SceneError& error) {  // an archive without contours is one, too
+    monitor.warn(fmt::format("the archive has no contours and no strain: {}", error.what()));
+    loop.scene.truth = {};
+    made_for.emplace(loop.scene, motion);
+  }
+  const Simulator& simulator = *made_for;
   const CardiacClock& clock = simulator.cardiacClock();
   const Loop made = renderInMemory(simulator, {0, clock.frameCount()}, monitor, threads);
   loop.scene_sha256 = sceneSha256(simulator.scene(), simulator.motion());

@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <span>
+#include <system_error>
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/part_file.h"
 #include "hdf/hdf5_file.h"
 #include "scene/scan_geometry.h"
 
@@ -29,11 +31,24 @@ std::vector<float> coordinatesOf(const BeamLoop& loop) {
   return places_m;
 }
 
-}  // namespace
-
-void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std::string& subject) {
+void refuseBlank(const std::string& subject) {
   if (subject.find_first_not_of(' ') == std::string::npos)
     throw SceneError("--exam: is empty, accepted: a name");
+}
+
+}  // namespace
+
+void checkZea(const std::filesystem::path& file, const std::string& subject) {
+  if (!subject.empty()) refuseBlank(subject);
+  std::error_code absent;
+  if (std::filesystem::is_directory(file, absent))
+    throw JobError(fmt::format("{}: is a folder, a file is needed there", file.string()));
+  removePartsOf(file);          // of a run that was killed here
+  const WholeFile trial(file);  // removed again, because it is not finished
+}
+
+void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std::string& subject) {
+  refuseBlank(subject);
   const auto t = static_cast<std::size_t>(loop.frames), z = static_cast<std::size_t>(loop.samples),
              x = static_cast<std::size_t>(loop.lines);
   const std::vector<float> coordinates = coordinatesOf(loop);

@@ -8,6 +8,10 @@
 
 namespace echocine {
 
+// Throws SceneError for what writeZea() refuses, before a loop is rendered, and JobError if the
+// file cannot be written. An empty subject is one that follows from the loop.
+void checkZea(const std::filesystem::path& file, const std::string& subject);
+
 // Writes one file; an existing one is replaced.
 //   tracks/track_0/data/image            values uint8 [T, z, x], coordinates [z, x, 3] m,
 //                                        timestamps [T] s, start_time_offset s

@@ -10,7 +10,6 @@
 #include "cli/standard_error.h"
 #include "core/error.h"
 #include "scene/ranges.h"
-#include "scene/tolerance_reader.h"
 #include "study/tolerance.h"
 
 namespace echocine {
@@ -50,9 +49,8 @@ void AccuracyOptions::addTo(CLI::App& command) {
 // The command line goes before the scene's wish; two demands on the line, or a preset over a
 // scene's tolerance, contradict each other and are refused.
 AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) const {
-  const std::optional<SceneTolerance> written = readSceneTolerance(scene.file);
-  std::optional<double> wanted_db = tolerance_db_;
-  if (!wanted_db && written) wanted_db = written->db;
+  const std::optional<double> wanted_db =
+      tolerance_db_ ? tolerance_db_ : scene.accuracy.tolerance_db;
   if (tolerance_db_ && !ranges::kTolerance_db.contains(*tolerance_db_))
     throw SceneError(fmt::format("--tolerance-db: {} is not accepted: {}", *tolerance_db_,
                                  ranges::kTolerance_db.text()));
@@ -64,7 +62,8 @@ AccuracyRecord AccuracyOptions::resolve(Scene& scene, int threads, bool quiet) c
     const Preset preset = presetOf(preset_);
     if (tolerance_db_) throw SceneError("--preset: excludes --tolerance-db, accepted: one of them");
     if (wanted_db)
-      throw SceneError(atPlace(written->place, "excludes --preset, accepted: one of them"));
+      throw SceneError(
+          atPlace(scene.accuracy.tolerance_place, "excludes --preset, accepted: one of them"));
     choice = atPreset(scene, preset);
   }
   scene = std::move(choice.scene);

@@ -7,6 +7,7 @@
 #include "archive/zea_file.h"
 #include "cli/documents.h"
 #include "cli/progress_line.h"
+#include "core/error.h"
 #include "scene/scene_reader.h"
 #include "scene/view_names.h"
 
@@ -33,7 +34,7 @@ ArchiveCommand::ArchiveCommand(CLI::App& app) {
   command->add_option("--exam", exam_,
                       "Name of the examination or subject; default: from the scene's hash");
   command->add_option("--recording", recording_,
-                      "Name of the recording; default: the view, or loop");
+                      "With echoxflow: name of the recording; default: the view, or loop");
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   command->add_flag("--quiet", quiet_, "Print errors only");
@@ -44,6 +45,11 @@ ArchiveCommand::ArchiveCommand(CLI::App& app) {
 int ArchiveCommand::run() {
   const Scene scene = readScene(scene_file_);
   if (layout_ == "echoxflow") checkEchoXFlow(scene, output_, exam_, recording_);
+  if (layout_ == "zea") {
+    if (!recording_.empty())
+      throw SceneError("--recording: is accepted with --layout echoxflow only");
+    checkZea(output_, exam_);
+  }
   ProgressLine progress(quiet_);
   const BeamLoop loop = makeBeamLoop(scene, threads_, progress.monitor());
   progress.finish();

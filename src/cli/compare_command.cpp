@@ -107,11 +107,13 @@ CompareCommand::CompareCommand(CLI::App& app)
       "Align the loops by their sectors only; do not search shift, scale and rotation");
   command->add_flag("--no-ecg", no_ecg_, "Do not read an ECG from the pictures");
   command->add_flag("--monotone", options_.monotone, "Use a monotone grey calibration");
-  command
-      ->add_option("--knot-count", options_.knot_count, "Number of knots of the grey calibration")
-      ->check(CLI::Range(2, 64))
-      ->capture_default_str();
+  CLI::Option* count = command
+                           ->add_option("--knot-count", options_.knot_count,
+                                        "Number of knots of the grey calibration")
+                           ->check(CLI::Range(2, 64))
+                           ->capture_default_str();
   command->add_option("--knots", options_.knots, "Synthetic grey levels (0 to 255) of the knots")
+      ->excludes(count)
       ->delimiter(',')
       ->check(within(0, 255))
       ->type_name("NUMBER");
@@ -179,6 +181,8 @@ int CompareCommand::run() {
   if (options_.real.empty())
     throw SceneError(
         "compare: needs two loops, SYNTHETIC and REAL; with --scan or --views only the real one");
+  if (options_.scene.empty() && command_->get_option("--band-mm")->count() > 0)
+    throw SceneError("--band-mm: needs --scene, whose boundaries have the bands");
   if (!dials_text_.empty()) throw SceneError("--dials: is accepted with --scan or --views only");
   // A flag that leaves out reads better than one that turns on what is on.
   options_.align_space = !no_space_;

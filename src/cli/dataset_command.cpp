@@ -59,6 +59,19 @@ dataset::RealLoop parseRealLoop(const std::string& text) {
   return {text.substr(0, sign), mm};
 }
 
+Monitor countingHearts(ProgressBar& bar, bool quiet) {
+  const auto tell = [&bar](const Progress& p) {
+    if (bar.due(p.done, p.total))
+      bar.draw(p.done, p.total, fmt::format("{}/{} hearts", p.done, p.total));
+  };
+  return {tell, [] { return !stopWanted(); }, warningPrinter(quiet)};
+}
+
+void printMade(std::size_t hearts, std::size_t loops, const std::filesystem::path& folder) {
+  fmt::print("{} hearts, {} loops in {}: README.md describes them\n", hearts, loops,
+             folder.string());
+}
+
 }  // namespace
 
 DatasetCommand::DatasetCommand(CLI::App& app) {
@@ -135,7 +148,8 @@ DatasetCommand::DatasetCommand(CLI::App& app) {
                    "With --slurm: more options for sbatch, such as \"--partition=cpu\"")
       ->needs(slurm);
   difference->excludes(state);
-  joining->excludes(state)->excludes(difference);
+  joining->excludes(state)->excludes(difference)->excludes("spec")->excludes("--threads");
+  state->excludes("spec")->excludes("--output")->excludes("--threads");
   for (CLI::Option* other : {state, difference, joining})
     other->excludes(task)->excludes(merge)->excludes("--preview")->excludes(slurm);
   command->add_flag("--quiet", quiet_, "Print errors only");
@@ -197,9 +211,7 @@ int DatasetCommand::make() {
   if (merged.failed > 0)
     fmt::print(stderr, "{} of {} hearts failed: {}\n", merged.failed, spec.hearts,
                (folder_ / "failed.csv").string());
-  if (!quiet_)
-    fmt::print("{} hearts, {} loops in {}: README.md describes them\n", merged.merged, merged.loops,
-               folder_.string());
+  if (!quiet_) printMade(merged.merged, merged.loops, folder_);
   return 0;
 }
 
@@ -219,28 +231,21 @@ int DatasetCommand::difference() const {
     return std::filesystem::is_directory(file) ? dataset::readFolderSpec(file).text
                                                : dataset::readSpec(file).text;
   };
-  for (const std::string& line : dataset::differencesOf(textOf(spec_file_), textOf(other_spec_)))
+  const auto& own = spec_file_.empty() ? folder_ : spec_file_;
+  if (own.empty()) throw SceneError("--diff: needs a spec, or a folder in --output");
+  for (const std::string& line : dataset::differencesOf(textOf(own), textOf(other_spec_)))
     fmt::print("{}\n", line);
   return 0;
 }
 
 int DatasetCommand::join() const {
-  if (!spec_file_.empty())
-    throw SceneError(fmt::format("spec: \"{}\" is not used, accepted with --join: folders only",
-                                 spec_file_.string()));
   ProgressBar bar(quiet_);
-  Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};
-  monitor.tell = [&](const Progress& p) {
-    if (bar.due(p.done, p.total))
-      bar.draw(p.done, p.total, fmt::format("{}/{} hearts", p.done, p.total));
-  };
-  const dataset::JoinSummary made = dataset::joinDatasets(joined_, folder_, {join_name_}, monitor);
+  const dataset::JoinSummary made =
+      dataset::joinDatasets(joined_, folder_, {join_name_}, countingHearts(bar, quiet_));
   bar.finish();
   if (!quiet_ && !made.left_out.empty())
     fmt::print("left out, because not all parts have them: {}\n", fmt::join(made.left_out, ", "));
-  if (!quiet_)
-    fmt::print("{} hearts, {} loops in {}: README.md describes them\n", made.hearts, made.loops,
-               folder_.string());
+  if (!quiet_) printMade(made.hearts, made.loops, folder_);
   return 0;
 }
 
@@ -250,13 +255,8 @@ int DatasetCommand::preview(const dataset::Spec& spec) const {
         "--output: \"{}\" is not a page, accepted with --preview: a name that ends in .html",
         folder_.string()));
   ProgressBar bar(quiet_);
-  Monitor monitor{.keep_going = [] { return !stopWanted(); }};
-  monitor.tell = [&](const Progress& p) {
-    if (bar.due(p.done, p.total))
-      bar.draw(p.done, p.total, fmt::format("{}/{} hearts", p.done, p.total));
-  };
   const dataset::PreviewSummary made =
-      dataset::writePreview(spec, folder_, preview_, threads_, monitor);
+      dataset::writePreview(spec, folder_, preview_, threads_, countingHearts(bar, quiet_));
   bar.finish();
   if (!quiet_)
     fmt::print("{}: {} hearts; all {} loops take about {} and {:.1f} MB\n", folder_.string(),

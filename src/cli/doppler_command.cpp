@@ -6,6 +6,7 @@
 #include "cli/documents.h"
 #include "cli/enum_names.h"
 #include "cli/progress_line.h"
+#include "core/error.h"
 #include "core/units.h"
 #include "scene/names.h"
 #include "scene/scene_reader.h"
@@ -45,8 +46,8 @@ DopplerCommand::DopplerCommand(CLI::App& app) {
   angle->excludes(offset)->needs(depth);
   offset->needs(depth);
   through->excludes(angle)->excludes(offset)->excludes(depth);
-  command->add_option("--volume", volume_mm_, "Length of the spectrum's sample volume, mm")
-      ->capture_default_str();
+  command->add_option("--volume", volume_mm_,
+                      "Length of the spectrum's sample volume, mm; default: 5");
   command->add_flag("--png", options_.png, "A PNG of each frame too");
   command->add_option("--threads", options_.threads, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
@@ -59,9 +60,12 @@ int DopplerCommand::run() {
   const Scene scene = readScene(scene_file_);
   options_.request.gate_m = metresFromMillimetres(gate_mm_);
   options_.request.wall = valueOf<WallFilterKind>(wall_).value();
+  if (volume_mm_ && !depth_mm_ && through_.empty())
+    throw SceneError(
+        "--volume: needs a place of the spectrum, accepted: with --depth or --through");
   if (depth_mm_ || !through_.empty()) {
     SpectrumRequest& spectrum = options_.spectrum.emplace();
-    spectrum.volume_m = metresFromMillimetres(volume_mm_);
+    if (volume_mm_) spectrum.volume_m = metresFromMillimetres(*volume_mm_);
     if (depth_mm_) spectrum.at.depth_m = metresFromMillimetres(*depth_mm_);
     if (!through_.empty()) spectrum.at.through = valueOf<MModeTarget>(through_);
     spectrum.at.place = placeGiven(scene.probe, angle_deg_, offset_mm_);

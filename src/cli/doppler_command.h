@@ -19,8 +19,8 @@ class DopplerCommand {
 
  private:
   std::string scene_file_, through_, wall_ = "none";
-  std::optional<double> angle_deg_, offset_mm_, depth_mm_;
-  double gate_mm_ = 1, volume_mm_ = 5;
+  std::optional<double> angle_deg_, offset_mm_, depth_mm_, volume_mm_;
+  double gate_mm_ = 1;
   DopplerOptions options_;
   bool quiet_ = false;
 };

@@ -64,20 +64,6 @@ void printRest(const Scene& scene, const Estimate& estimate) {
   fmt::print("memory      {:.0f} MB\n", estimate.memory_bytes * 1e-6);
 }
 
-// The manifest's own parts, so that scripts can read both in the same way.
-void printJson(const Scene& scene, const Estimate& estimate) {
-  nlohmann::ordered_json json = planJson(estimate.measured.plan);
-  json["probe_toml"] = poseToml(scene);
-  json["effects"] = effectsJson(estimate.measured);
-  json["white"] = whiteWords(scene);
-  json["warnings"] = estimate.measured.warnings;
-  json["frames"] = estimate.frames;
-  json["seconds"] = estimate.seconds;
-  json["memory_bytes"] = estimate.memory_bytes;
-  json["timings_ms_per_frame"] = stageTimesJson(estimate.measured);
-  fmt::print("{}\n", json.dump(1));
-}
-
 }  // namespace
 
 PlanCommand::PlanCommand(CLI::App& app) {
@@ -88,12 +74,16 @@ PlanCommand::PlanCommand(CLI::App& app) {
   command->add_option("--threads", threads_, "Threads; default 0: one per core")
       ->check(CLI::Range(0, 4096));
   accuracy_.addTo(*command);
-  command->add_flag("--interpolation", interpolation_,
-                    "Print only the errors of each kind of motion.interpolation at omitted "
-                    "keyframes, mm and mL");
-  command->add_option(
-      "--page", page_,
-      "Also write the page of `echocine view` to this file: meshes and sector in 3-D");
+  CLI::Option* interpolation =
+      command->add_flag("--interpolation", interpolation_,
+                        "Print only the errors of each kind of motion.interpolation at omitted "
+                        "keyframes, mm and mL");
+  command
+      ->add_option("--page", page_,
+                   "Also write the page of `echocine view` to this file: meshes and sector in 3-D")
+      ->excludes(interpolation);
+  for (const char* name : {"--preset", "--tolerance-db"})
+    interpolation->excludes(command->get_option(name));
   command->add_flag("--json", json_, "Print JSON");
   command->add_flag("--quiet", quiet_, "Print no warnings");
   command->footer("Example: echocine plan scene.toml\n" + std::string(kDocuments));
@@ -110,7 +100,7 @@ int PlanCommand::run() {
   const Estimate estimate = estimateLoop(scene, threads_, monitor);
   if (!page_.empty()) writeViewPage(scene, page_, threads_, [](const std::string&) {});
   if (json_) {
-    printJson(scene, estimate);
+    fmt::print("{}\n", estimateJson(scene, estimate).dump(1));
   } else {
     printEffects(estimate.measured);
     printRest(scene, estimate);

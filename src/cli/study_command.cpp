@@ -4,19 +4,15 @@
 #include <CLI/CLI.hpp>
 
 #include <algorithm>
-#include <chrono>
-#include <optional>
 
 #include "cli/documents.h"
 #include "cli/number_check.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
-#include "core/part_file.h"
-#include "core/stop.h"
 #include "motion/surfaces/probe_placement.h"
 #include "scene/scene_reader.h"
 #include "study/study_files.h"
-#include "study/study_page.h"
+#include "study/study_folder.h"
 
 namespace echocine {
 
@@ -31,26 +27,6 @@ void refuseUnknownKnobs(const std::vector<std::string>& wanted) {
       throw SceneError(
           fmt::format("--knobs: \"{}\" is not a knob, accepted: {}", knob, fmt::join(names, ", ")));
 }
-
-// Written anew after every row: what a stopped study leaves is whole as far as it goes. The page
-// holds all pictures, so it follows every few seconds (our choice).
-class FilesSoFar {
- public:
-  explicit FilesSoFar(const std::filesystem::path& folder) : folder_(folder) {}
-  void write(const StudyResult& result, bool last) {
-    unstoppable([&] {
-      writeStudyFiles(result, folder_);
-      const auto now = std::chrono::steady_clock::now();
-      if (!last && page_ && now - *page_ < std::chrono::seconds(5)) return;
-      writeStudyPage(result, folder_ / "study.html");
-      page_ = now;
-    });
-  }
-
- private:
-  const std::filesystem::path& folder_;
-  std::optional<std::chrono::steady_clock::time_point> page_;
-};
 
 }  // namespace
 
@@ -97,10 +73,8 @@ StudyCommand::StudyCommand(CLI::App& app) {
 int StudyCommand::run() {
   refuseUnknownKnobs(options_.knobs);
   const Scene scene = placed(readScene(scene_file_));
-  for (const char* name : {"study.json", "study.csv", "study.html"})
-    removePartsOf(options_.folder / name);  // of a run that was killed here
   ProgressLine line(quiet_);
-  FilesSoFar files(options_.folder);
+  StudyFolder files(options_.folder);
   const StudyResult result = runStudy(scene, options_, line.monitor(),
                                       [&](const StudyResult& r) { files.write(r, false); });
   line.finish();

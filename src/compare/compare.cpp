@@ -144,6 +144,20 @@ void holdScene(const Scene& scene, const CompareOptions& options, const Monitor&
   }
 }
 
+// Phase of the beat between frames: of a render by its manifest, so that beats of different lengths
+// keep theirs; otherwise by the length of the beat.
+double phaseAt(double place, const Comparison& c) {
+  const std::vector<double>& phases = c.synthetic.phases;
+  double phase = place / c.synthetic_beat.frames;
+  if (phases.size() == 1) phase += phases.front();
+  if (phases.size() > 1) {
+    const std::size_t i = std::min(static_cast<std::size_t>(place), phases.size() - 2);
+    const double step = phases[i + 1] - phases[i];
+    phase = phases[i] + (place - static_cast<double>(i)) * (step - std::floor(step));
+  }
+  return phase - std::floor(phase);
+}
+
 }  // namespace
 
 Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
@@ -176,11 +190,8 @@ Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
     f.real_frame = static_cast<int>(j);
     f.real_time_s = c.real.video.rate.hz > 0 ? static_cast<double>(j) / c.real.video.rate.hz : 0;
     f.synthetic_place = c.time.place[j];
-    if (f.synthetic_place >= 0 && c.synthetic_beat.frames > 0) {
-      const double phase = f.synthetic_place / c.synthetic_beat.frames +
-                           (c.synthetic.phases.empty() ? 0 : c.synthetic.phases.front());
-      f.synthetic_phase = phase - std::floor(phase);
-    }
+    if (f.synthetic_place >= 0 && c.synthetic_beat.frames > 0)
+      f.synthetic_phase = phaseAt(f.synthetic_place, c);
     f.repeat = c.real.video.isRepeat(f.real_frame);
     c.frames.push_back(f);
     paired.push_back(pairedFrame(c, j));

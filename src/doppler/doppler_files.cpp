@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <regex>
 #include <system_error>
 
 #include "core/error.h"
@@ -22,6 +21,7 @@
 #include "motion/cycle/cardiac_clock.h"
 #include "motion/cycle/loop_ecg.h"
 #include "motion/surfaces/probe_placement.h"
+#include "output/output_folder.h"
 #include "output/plane_exr.h"
 #include "output/polar_plane.h"
 #include "output/scene_sha256.h"
@@ -95,26 +95,19 @@ struct Agreement {
   }
 };
 
-// Frames of an earlier run, by their names; other files stay.
-void removeFrames(const std::filesystem::path& folder) {
-  const std::regex name("frame_[0-9]{4,}\\.(exr|png)");
-  std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored))
-    if (std::regex_match(entry.path().filename().string(), name))
-      std::filesystem::remove(entry.path(), ignored);
-}
-
-// An unfinished folder has no doppler.json, and no spectrum of an earlier run.
+// An unfinished folder has no doppler.json, and no spectrum or GIF of an earlier run.
 void prepare(const std::filesystem::path& folder, std::optional<FolderLock>& lock) {
   makeFolder(folder);
   lock.emplace(folder);
   std::error_code ignored;
-  for (const char* name : {"doppler.json", "spectrum.exr", "spectrum.png", "spectrum.csv"}) {
+  for (const char* name :
+       {"doppler.json", "doppler.gif", "spectrum.exr", "spectrum.png", "spectrum.csv"}) {
     std::filesystem::remove(folder / name, ignored);
     removePartsOf(folder / name);  // of a run that was killed here
   }
   makeFolder(folder / "velocity");
-  removeFrames(folder / "velocity");
+  for (const char* ending : {".exr", ".png"})
+    removeNumbered(folder / "velocity", {"frame_", ending}, 0);
 }
 
 struct Made {
@@ -193,7 +186,7 @@ class LoopWriter {
     made.frame = makeDopplerFrame(simulator_, options_.request, i, white_);
     if (options_.folder.empty()) return made;
     made.exr = exrOf(made.frame, scene_.probe, options_.request);
-    made.picture = overlay_.draw(made.frame, white_, (i + 0.5) / static_cast<double>(frames));
+    made.picture = overlay_.draw(made.frame, white_, i / static_cast<double>(frames));
     if (options_.png) made.png = encodePng(made.picture, colours_);
     return made;
   }
@@ -260,10 +253,10 @@ DopplerSummary writeDoppler(const Scene& given, const DopplerOptions& options,
   Scene scene = placed(given);
   scene = options.spectrum ? spectrumScene(std::move(scene), options.request, *options.spectrum)
                            : dopplerScene(std::move(scene), options.request);
-  for (const std::string& warning : scene.warnings) monitor.warn(warning);
   DopplerSummary summary;
   withThreads(options.threads, [&] {
     const Simulator simulator(scene);
+    passWarnings(simulator, monitor);
     if (options.spectrum) checkSpectrum(simulator, options.request, *options.spectrum);
     std::optional<FolderLock> lock;
     if (!options.folder.empty()) prepare(options.folder, lock);

@@ -7,10 +7,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <opencv2/imgproc.hpp>
 
 #include "core/error.h"
 #include "echo/beam_recording.h"
+#include "echo/pixel_size.h"
 #include "echo/render_folder.h"
 #include "video/read_video.h"
 
@@ -19,28 +19,6 @@ namespace echocine::echo {
 namespace {
 
 constexpr double kAspectNoted = 0.03, kAspectRefused = 0.12;  // our choice
-
-// Pictures with pixels that are not square, stretched in height.
-void makeSquare(Video& video, double aspect) {
-  const int height = static_cast<int>(std::lround(video.height * aspect));
-  const auto stretch = [&](PixelPlane& plane, int how) {
-    const cv::Mat in(video.height, video.width, CV_8U, plane.data());
-    cv::Mat out;
-    cv::resize(in, out, {video.width, height}, 0, 0, how);
-    plane.assign(out.datastart, out.dataend);
-  };
-  for (PixelPlane& frame : video.frames) stretch(frame, cv::INTER_LINEAR);
-  stretch(video.coloured, cv::INTER_NEAREST);
-  video.height = height;
-  const auto stretched = [&](int rows) { return static_cast<int>(std::lround(rows * aspect)); };
-  for (UltrasoundRegion& region : video.regions) {
-    region.min_y = stretched(region.min_y);
-    region.max_y = stretched(region.max_y + 1) - 1;
-    region.cm_per_pixel_y /= aspect;
-  }
-  video.notes.push_back(fmt::format(
-      "pixels are {} times as high as wide, as given: the picture is stretched", aspect));
-}
 
 // A sector that was given is taken as it is, but has to lie in the picture; one that is found must
 // not be stretched.
@@ -119,13 +97,14 @@ void blankOutside(EchoLoop& loop) {
 // The user's word first, then the file's, then the picture's: before what is burnt in around the
 // sector is blanked.
 void anchorBeat(EchoLoop& loop, const SideOptions& side, bool folder, bool recording) {
-  if (side.ed_frame || !side.r_waves_s.empty()) {
+  const bool has_waves = !loop.video.r_waves_s.empty() && loop.video.rate.hz > 0;
+  if (side.ed_frame || (has_waves && !side.r_waves_s.empty())) {
     loop.beat_anchor = "given";
   } else if (folder) {
     loop.beat_anchor = "manifest";
   } else if (recording) {
     return;  // its ECG is no picture
-  } else if (!loop.video.r_waves_s.empty()) {
+  } else if (has_waves) {
     loop.beat_anchor = "DICOM R waves";
   } else if (side.read_ecg) {
     loop.ecg = readEcg(loop.video, loop.sector());
@@ -144,68 +123,16 @@ void refuseOfExact(const std::filesystem::path& path, const SideOptions& side, b
                                    prefix, option, path.string()));
 }
 
-// Some scanners give the end behind the last pixel.
-bool insidePicture(const UltrasoundRegion& r, const Video& v) {
-  return r.max_x <= v.width && r.max_y <= v.height && r.min_x <= r.max_x && r.min_y <= r.max_y;
-}
-
-// The region that holds the sector has the size of a pixel. A region that extends outside the
-// picture belongs to a picture of another size: the factor that shrinks its box onto the sector's
-// box gives the true scale.
-void scaleFromRegions(EchoLoop& loop) {
-  const Sector& s = loop.sector();
+// Times and rates are frames only with a frame rate.
+void noteUnusedTimes(EchoLoop& loop) {
   Video& v = loop.video;
-  const double left = s.apex_x + s.r_max * std::sin(s.first_rad),
-               right = s.apex_x + s.r_max * std::sin(s.last_rad);
-  const double bottom = s.apex_y + s.r_max, middle = (left + right) / 2;
-  for (const UltrasoundRegion& r : v.regions) {
-    if (!(r.cm_per_pixel_x > 0) || !(r.cm_per_pixel_y > 0)) continue;
-    double shrink = 1;
-    if (!insidePicture(r, v)) {
-      // Sizes come in whole ratios: try those that put the region around the sector.
-      // In outer radii, our choice; factors are those between usual screen and picture sizes.
-      double best_misfit = 0.25;
-      shrink = 0;
-      for (const double factor : {2.0, 1.5, 4.0 / 3, 1.25, 1.6, 1.875, 2.5, 3.0, 4.0}) {
-        const double off =
-            (std::abs((r.min_x + r.max_x) / 2.0 / factor - middle) +
-             std::abs(r.max_y / factor - bottom) + std::max(0.0, r.max_x / factor - v.width) +
-             std::max(0.0, r.max_y / factor - v.height)) /
-            s.r_max;
-        if (off < best_misfit) best_misfit = off, shrink = factor;
-      }
-      if (shrink > 0)
-        v.notes.push_back(
-            fmt::format("its region ({},{})-({},{}) reaches outside the {} x {} picture: the tags "
-                        "are those of a picture "
-                        "{:.3g} times as large; scale {:.5f} cm per pixel taken instead of {:.5f}",
-                        r.min_x, r.min_y, r.max_x, r.max_y, v.width, v.height, shrink,
-                        r.cm_per_pixel_y * shrink, r.cm_per_pixel_y));
-      else
-        v.notes.push_back(
-            fmt::format("its region ({},{})-({},{}) reaches outside the {} x {} picture and fits "
-                        "it at no size: its scale is not used",
-                        r.min_x, r.min_y, r.max_x, r.max_y, v.width, v.height));
-    } else if (!(r.min_x <= middle && middle <= r.max_x && r.min_y <= bottom &&
-                 bottom <= r.max_y + 0.1 * s.r_max)) {
-      continue;  // of another part of the picture: a trace, a spectrum
-    }
-    if (shrink == 0) continue;
-    const double cm = std::sqrt(r.cm_per_pixel_x * r.cm_per_pixel_y) * shrink,
-                 depth_cm = cm * s.r_max;
-    // From a mouse's heart to more than a body.
-    if (depth_cm < 2 || depth_cm > 40) {
-      v.notes.push_back(
-          fmt::format("its scale of {:.5f} cm per pixel makes the sector {:.1f} cm deep, which is "
-                      "impossible for an echo: not used",
-                      cm, depth_cm));
-      continue;
-    }
-    loop.metres_per_pixel = 0.01 * cm;
-    loop.scale_source =
-        shrink == 1 ? "DICOM regions" : "DICOM regions, corrected to the picture's size";
-    return;
-  }
+  if (!v.r_waves_s.empty() && !(v.rate.hz > 0))
+    v.notes.emplace_back("its R waves are not used, because the frame rate is unknown: give it");
+  if (v.heart_rate_bpm && !v.rate.trusted && !(loop.frames_per_beat > 0))
+    v.notes.push_back(
+        fmt::format("the heart rate ({}) is not used, because the frame rate of the acquisition is "
+                    "unknown: give it",
+                    v.heart_rate_source));
 }
 
 }  // namespace
@@ -248,7 +175,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
     loop = readBeamRecording(path);
   } else {
     loop.video = readVideo(path);
-    if (side.pixel_aspect) makeSquare(loop.video, *side.pixel_aspect);
+    takeAspect(side, loop.video);
   }
   Video& v = loop.video;
   loop.label = side.label.value_or(is_real ? "real loop" : "synthetic loop");
@@ -276,6 +203,7 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
         fmt::format("{:.4g} frames/s is the container's playback rate, not used as the acquisition "
                     "rate; give the frame rate",
                     v.rate.hz));
+  noteUnusedTimes(loop);
   if (!v.repeats.empty()) {
     std::string list;
     for (const int r : v.repeats) list += fmt::format("{}{}", list.empty() ? "" : ", ", r);

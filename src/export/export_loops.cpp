@@ -8,8 +8,10 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
+#include "core/seal.h"
 #include "core/stop.h"
 #include "echo/read_loop.h"
+#include "echo/render_folder.h"
 #include "export/montage.h"
 #include "video/read_video.h"
 
@@ -50,14 +52,22 @@ struct ReadLoop {
   double rate_hz = 0;
 };
 
+// Only this program's seal proves that no patient's name is in the pictures of a folder.
+bool isSealedRender(const fs::path& folder) {
+  constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
+  return echo::isRenderFolder(folder) &&
+         isSealed(readTextFile(folder / "manifest.json", kMaxManifest));
+}
+
 Video readFrames(const fs::path& path, const std::optional<double>& fps) {
   const fs::path cine = path / "cine.avi";
   std::error_code failed;
-  if (fs::is_regular_file(cine, failed)) return readVideo(cine);
+  const bool has_cine = fs::is_regular_file(cine, failed);
+  if (has_cine && isSealedRender(path)) return readVideo(cine);
   echo::SideOptions side;
   side.read_ecg = false;
   side.fps = fps;
-  return std::move(echo::readLoop(path, side, true).video);
+  return std::move(echo::readLoop(has_cine ? cine : path, side, true).video);
 }
 
 ReadLoop readLoop(const fs::path& path, const ExportOptions& options) {

@@ -39,9 +39,9 @@ struct Exported {
   std::vector<std::string> notes;  // what differs from the loops as acquired
 };
 
-// Replaces an existing file. Pictures of a render are shown whole; other videos show the sector
-// only, because text beside it may name a patient. Throws SceneError for invalid options or loops,
-// JobError for a failed write.
+// Replaces an existing file. Pictures of a finished render are shown whole; other videos show the
+// sector only, because text beside it may name a patient. Throws SceneError for invalid options or
+// loops, JobError for a failed write.
 Exported exportLoops(const ExportOptions& options);
 
 }  // namespace echocine

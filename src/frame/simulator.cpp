@@ -155,4 +155,9 @@ FrameTruth Simulator::truthAt(const FrameTime& time, const Workspace* traced) co
   return stages_->truth.at(time, traced);
 }
 
+void passWarnings(const Simulator& simulator, const Monitor& monitor) {
+  for (const auto& warnings : {simulator.scene().warnings, simulator.plan().warnings})
+    for (const std::string& warning : warnings) monitor.warn(warning);
+}
+
 }  // namespace echocine

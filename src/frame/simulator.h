@@ -120,4 +120,7 @@ class Simulator {
   const std::unique_ptr<const FrameStages> stages_;
 };
 
+// Passes on the warnings of the scene and of its plan.
+void passWarnings(const Simulator& simulator, const Monitor& monitor);
+
 }  // namespace echocine

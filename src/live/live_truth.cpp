@@ -93,6 +93,8 @@ Scene withTruth(const Simulator& still, bool wall) {
 void LiveTruth::prepare(const Simulator& still, const std::string& name, bool wall) {
   if (simulator_ && name_ == name && (wall_ || !wall)) return;
   simulator_.reset();
+  name_.clear();
+  wall_ = false;
   no_wall_.clear();
   first_tracks_m_.clear();
   const auto make = [&](bool with_wall) {

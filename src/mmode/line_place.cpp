@@ -88,7 +88,8 @@ int lineAt(const Probe& probe, double place, const char* option) {
   const ScanGeometry geometry(probe);
   if (probe.lines > 1) {
     const double line = (place - geometry.firstPlace()) / geometry.cellWidth();
-    if (geometry.fullTurn()) return geometry.nearestLine(std::remainder(line, probe.lines));
+    if (geometry.fullTurn() && std::isfinite(place))
+      return geometry.nearestLine(std::remainder(line, probe.lines));
     if (line >= -0.5 && line <= probe.lines - 0.5) return geometry.nearestLine(line);
   } else if (place >= geometry.firstPlace() && place <= geometry.lastPlace()) {
     return 0;

@@ -112,10 +112,10 @@ Json jsonOf(const MMode& mode, const Simulator& simulator, const MModeRequest& r
 
 MMode writeMMode(const Scene& given, const MModeOptions& options, const Monitor& monitor) {
   const Scene scene = mmodeScene(placed(given), options.request);
-  for (const std::string& warning : scene.warnings) monitor.warn(warning);
   MMode mode;
   withThreads(options.threads, [&] {
     const Simulator simulator(scene);
+    passWarnings(simulator, monitor);
     checkMMode(simulator, options.request);
     makeFolder(options.folder);
     const FolderLock lock(options.folder);

@@ -50,13 +50,8 @@ void tryWriting(const fs::path& folder) {
   trial.write(std::as_bytes(std::span(std::string_view("echocine"))));
 }
 
-// How the files of frames are called: stem, number, ending.
-struct FrameNames {
-  std::string_view stem, ending;
-};
-
 // The number in "frame_0012.exr" for "frame_" and ".exr"; nothing for any other name.
-std::optional<int> frameNumber(std::string_view name, const FrameNames& names) {
+std::optional<int> frameNumber(std::string_view name, const NumberedNames& names) {
   const std::string whole(name);
   const auto [stem, ending] = names;
   if (!name.starts_with(stem) || !name.ends_with(ending)) return std::nullopt;
@@ -71,9 +66,10 @@ std::optional<int> frameNumber(std::string_view name, const FrameNames& names) {
   return number;
 }
 
-// Deletes numbered frames from `first` on, and their half-written forms whatever the number.
+}  // namespace
+
 // Listed first and removed then: what a directory iterator sees while files vanish is not defined.
-void removeFrames(const fs::path& folder, const FrameNames& names, int first) {
+void removeNumbered(const fs::path& folder, const NumberedNames& names, int first) {
   std::vector<fs::path> stale;
   std::error_code absent;
   for (fs::directory_iterator it(folder, absent), end; it != end; it.increment(absent)) {
@@ -84,8 +80,6 @@ void removeFrames(const fs::path& folder, const FrameNames& names, int first) {
   }
   for (const fs::path& path : stale) removeFile(path);
 }
-
-}  // namespace
 
 OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool resume)
     : folder_(madeFolder(folder)), lock_(folder_), resume_(resume), exr_(settings.exr) {
@@ -110,8 +104,8 @@ OutputFolder::OutputFolder(fs::path folder, const OutputSettings& settings, bool
 void OutputFolder::removeTruth(int first) const {
   std::error_code failed;
   if (!fs::is_directory(truth(), failed)) return;
-  removeFrames(truth(), {"labels_", ".png"}, first);
-  removeFrames(truth(), {"contours_", ".json"}, first);
+  removeNumbered(truth(), {"labels_", ".png"}, first);
+  removeNumbered(truth(), {"contours_", ".json"}, first);
   for (const char* name : {"labels.json", "tracks.npz", "function.json"}) {
     removeFile(truth() / name);
     removePartsOf(truth() / name);
@@ -122,8 +116,8 @@ void OutputFolder::removeTruth(int first) const {
 // Pictures without an EXR beside them bear no scene's name, so on resuming they are not trusted.
 void OutputFolder::removeStale(int frame_count) const {
   const int first = resume_ ? frame_count : 0;
-  removeFrames(intensity(), {"frame_", ".exr"}, first);
-  removeFrames(png(), {"frame_", ".png"}, exr_ ? first : 0);
+  removeNumbered(intensity(), {"frame_", ".exr"}, first);
+  removeNumbered(png(), {"frame_", ".png"}, exr_ ? first : 0);
   removeTruth(exr_ ? first : 0);
   for (const fs::path& loop : {cine(), dicom()}) {
     if (!resume_) removeFile(loop);

@@ -2,11 +2,21 @@
 // The folder of a run: created, checked for writing, cleaned of earlier runs.
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/folder_lock.h"
 #include "scene/scene.h"
 
 namespace echocine {
+
+// Names of numbered files: stem, four digits or more, ending.
+struct NumberedNames {
+  std::string_view stem, ending;
+};
+
+// Deletes the files that are numbered `first` or higher, and half-written ones of any number. Files
+// of other names stay. Throws JobError.
+void removeNumbered(const std::filesystem::path& folder, const NumberedNames& names, int first);
 
 class OutputFolder {
  public:

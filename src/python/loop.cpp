@@ -7,6 +7,7 @@
 #include "core/parallel.h"
 #include "loop/loop.h"
 #include "motion/cycle/cardiac_clock.h"
+#include "motion/surfaces/probe_placement.h"
 #include "output/function_json.h"
 #include "plan/loop_plan.h"
 #include "python/arrays.h"
@@ -14,6 +15,7 @@
 #include "python/frame.h"
 #include "python/job.h"
 #include "python/native_scene.h"
+#include "study/tolerance.h"
 
 namespace echocine::python {
 
@@ -32,10 +34,10 @@ LoopPointer renderInMemory(const NativeScene& scene,
                     range.first, range.second, count));
   auto loop = std::make_shared<Loop>();
   runJob(progress, [&](const Monitor& monitor) {
-    for (const std::string& warning : scene.scene.warnings) monitor.warn(warning);
+    const Scene wanted = atOwnTolerance(placed(scene.scene), threads, monitor).scene;
     std::optional<Simulator> simulator;
-    withThreads(threads, [&] { simulator.emplace(scene.scene); });
-    for (const std::string& warning : simulator->plan().warnings) monitor.warn(warning);
+    withThreads(threads, [&] { simulator.emplace(wanted); });
+    passWarnings(*simulator, monitor);
     *loop = renderInMemory(*simulator, range, monitor, threads);
   });
   return loop;

@@ -87,6 +87,7 @@ py::dict mmode(const NativeScene& native, const Folder& folder, std::optional<do
     }
     withThreads(threads, [&] {
       const Simulator simulator(mmodeScene(placed(native.scene), options.request));
+      passWarnings(simulator, monitor);
       mode = makeMMode(simulator, options.request, monitor);
     });
   });
@@ -135,15 +136,15 @@ py::dict dictOf(const Measured& frames, const DopplerSummary& summary, const Pro
 py::dict doppler(const NativeScene& native, const Folder& folder, double prf_hz, int pulses,
                  double gate_mm, const std::string& wall, std::optional<double> depth_mm,
                  std::optional<double> angle_deg, std::optional<double> offset_mm,
-                 const std::optional<std::string>& through, double volume_mm, int threads,
-                 const py::object& progress) {
+                 const std::optional<std::string>& through, std::optional<double> volume_mm,
+                 int threads, const py::object& progress) {
   Measured frames;
   DopplerOptions options;
   options.request = {pulses, prf_hz, metresFromMillimetres(gate_mm),
                      *wordOf<WallFilterKind>("wall_filter", wall)};
   if (depth_mm || through) {
     SpectrumRequest& spectrum = options.spectrum.emplace();
-    spectrum.volume_m = metresFromMillimetres(volume_mm);
+    if (volume_mm) spectrum.volume_m = metresFromMillimetres(*volume_mm);
     if (depth_mm) spectrum.at.depth_m = metresFromMillimetres(*depth_mm);
     spectrum.at.place = placeGiven(native.scene.probe, angle_deg, offset_mm);
     spectrum.at.through = wordOf<MModeTarget>("through", through);
@@ -167,8 +168,9 @@ void bindModes(py::module_& module) {
   module.def("doppler", &doppler, py::arg("scene"), py::arg("folder").none(true), py::arg("prf_hz"),
              py::arg("pulses"), py::arg("gate_mm"), py::arg("wall_filter"),
              py::arg("depth_mm").none(true), py::arg("angle_deg").none(true),
-             py::arg("offset_mm").none(true), py::arg("through").none(true), py::arg("volume_mm"),
-             py::arg("threads"), py::arg("progress").none(true), "Velocities from pulses.");
+             py::arg("offset_mm").none(true), py::arg("through").none(true),
+             py::arg("volume_mm").none(true), py::arg("threads"), py::arg("progress").none(true),
+             "Velocities from pulses.");
 }
 
 }  // namespace echocine::python

@@ -7,13 +7,15 @@
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "motion/surfaces/probe_placement.h"
 #include "python/bindings.h"
 #include "python/job.h"
 #include "python/native_scene.h"
 #include "render/estimate.h"
 #include "study/study.h"
 #include "study/study_files.h"
-#include "study/study_page.h"
+#include "study/study_folder.h"
+#include "study/tolerance.h"
 
 namespace echocine::python {
 
@@ -22,14 +24,8 @@ namespace {
 std::string plan(const NativeScene& scene, int threads, const py::object& progress) {
   nlohmann::ordered_json json;
   runJob(progress, [&](const Monitor& monitor) {
-    const Estimate estimate = estimateLoop(scene.scene, threads, monitor);
-    json = planJson(estimate.measured.plan);
-    json["effects"] = effectsJson(estimate.measured);
-    json["warnings"] = estimate.measured.warnings;
-    json["frames"] = estimate.frames;
-    json["seconds"] = estimate.seconds;
-    json["memory_bytes"] = estimate.memory_bytes;
-    json["timings_ms_per_frame"] = stageTimesJson(estimate.measured);
+    const Scene wanted = atOwnTolerance(placed(scene.scene), threads, monitor).scene;
+    json = estimateJson(wanted, estimateLoop(wanted, threads, monitor));
   });
   return json.dump();
 }
@@ -53,16 +49,17 @@ std::string study(const NativeScene& scene, const std::optional<std::filesystem:
   options.knobs = knobs;
   if (folder) options.folder = *folder;
   if (budget_s) options.budget_s = *budget_s;
-  const auto write = [&](const StudyResult& result) {
-    if (!folder) return;
-    writeStudyFiles(result, *folder);
-    writeStudyPage(result, *folder / "study.html");
+  std::optional<StudyFolder> files;
+  if (folder) files.emplace(*folder);
+  const auto write = [&](const StudyResult& result, bool last) {
+    if (files) files->write(result, last);
   };
   std::string json;
   runJob(progress, [&](const Monitor& monitor) {
-    const StudyResult result = runStudy(scene.scene, options, monitor, write);
+    const StudyResult result =
+        runStudy(scene.scene, options, monitor, [&](const StudyResult& r) { write(r, false); });
     if (result.rows.empty()) throw JobError("stopped before the first setting was measured");
-    write(result);
+    write(result, true);
     json = studyJson(result).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
   });
   return json;

@@ -5,10 +5,12 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/error.h"
+#include "motion/surfaces/probe_placement.h"
 #include "python/bindings.h"
 #include "python/job.h"
 #include "python/native_scene.h"
 #include "render/render.h"
+#include "study/tolerance.h"
 
 namespace echocine::python {
 
@@ -17,13 +19,15 @@ namespace {
 void renderToFolder(const NativeScene& scene, const std::filesystem::path& folder,
                     const std::optional<std::pair<int, int>>& frames, int threads, bool resume,
                     bool overwrite, const py::object& progress) {
-  const RenderOptions options{.folder = folder,
-                              .threads = threads,
-                              .frames = frames,
-                              .resume = resume,
-                              .overwrite = overwrite};
+  RenderOptions options{.folder = folder,
+                        .threads = threads,
+                        .frames = frames,
+                        .resume = resume,
+                        .overwrite = overwrite};
   runJob(progress, [&](const Monitor& monitor) {
-    const RenderSummary summary = renderLoop(scene.scene, options, monitor);
+    AccuracyChoice choice = atOwnTolerance(placed(scene.scene), threads, monitor);
+    options.accuracy = std::move(choice.record);
+    const RenderSummary summary = renderLoop(choice.scene, options, monitor);
     if (summary.frames_done < summary.frames_wanted)
       throw JobError(fmt::format(
           "stopped: {} of {} frames are finished in {}; resume=True continues from there",

@@ -25,6 +25,7 @@
 #include "plan/loop_plan.h"
 #include "render/render_pass.h"
 #include "render/report.h"
+#include "signal/signal_chain.h"
 #include "video/dicom_writer.h"
 
 namespace echocine {
@@ -87,6 +88,18 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
   manifest.keyframes = keyframeVolumes(simulator.scene(), simulator.motion());
 }
 
+// Size of a frame that is kept from the measurement of white (loop/kept_frames.h), by its planes; 0
+// if the loop keeps none.
+double keptFrameBytes(const Simulator& simulator) {
+  if (simulator.plan().effects.rolling) return 0;
+  const Scene& scene = simulator.scene();
+  constexpr std::size_t kIntensityAndMedium = 2, kField = 3;
+  const std::size_t planes = kIntensityAndMedium +
+                             (scene.output.exr ? scene.output.channels.size() : 0) +
+                             (simulator.chain().addsFields() ? kField : 0);
+  return static_cast<double>(planes * sizeof(float)) * scene.probe.lines * scene.probe.samples;
+}
+
 }  // namespace
 
 RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const Monitor& monitor) {
@@ -123,18 +136,25 @@ RenderSummary renderLoop(const Scene& given, const RenderOptions& options, const
     summary.setup_s = secondsSince(start);
     ReportPage report(folder.report(), scene, simulator.cardiacClock(), range);
     FolderSink sink({simulator, folder, monitor, report, range, options.resume, earlier}, manifest);
+    auto frames_end = std::chrono::steady_clock::now();
     try {
-      together([&] { summary.frames_done = renderFrames(simulator, range, sink, monitor); },
-               [&] { report.prepareView(simulator); });
+      together(
+          [&] {
+            summary.frames_done = renderFrames(simulator, range, sink, monitor);
+            frames_end = std::chrono::steady_clock::now();
+          },
+          [&] { report.prepareView(simulator); });
     } catch (...) {
       sink.endEarly();
       throw;
     }
+    summary.page_s = secondsSince(frames_end);
     if (summary.frames_done == summary.frames_wanted)
       sink.finish(true);
     else
       unstoppable([&] { sink.finish(false); });  // what is finished stays playable
-    summary.passes_s = secondsSince(start) - summary.setup_s;
+    summary.frames_s = secondsSince(start) - summary.setup_s - summary.page_s;
+    summary.kept_frame_bytes = keptFrameBytes(simulator);
     // No manifest: a folder without one is an unfinished run.
     if (summary.frames_done < summary.frames_wanted) return;
     noteCosts(simulator, summary);

@@ -22,8 +22,11 @@ struct RenderOptions {
 
 struct RenderSummary {
   int frames_done = 0, frames_wanted = 0;  // fewer if keep_going() became false
-  double setup_s = 0, passes_s = 0;        // reading and planning; measuring and rendering
-  Manifest manifest;                       // written to the folder if the run was complete
+  double setup_s = 0;                      // reading and planning
+  double frames_s = 0;          // measuring and rendering: grows with the number of frames
+  double page_s = 0;            // waiting for the report's page after the frames
+  double kept_frame_bytes = 0;  // of a frame kept from the measurement; 0: none is
+  Manifest manifest;            // written to the folder if the run was complete
 };
 
 // Throws SceneError for unusable scene, meshes or range (nothing is written), and JobError. Frames

@@ -162,6 +162,10 @@ struct AccuracySettings {
   // Cells of the tissue's motion field along the diagonal of the moving surfaces. Our choice:
   // motion/interior/README.md has the error and the time of others.
   int motion_field_cells = 48;
+  // Request for the cheapest settings within this error (study/tolerance.h), not part of the
+  // rendered scene.
+  std::optional<double> tolerance_db;
+  SourcePlace tolerance_place;
 };
 
 enum class ExrCompression { none, rle, zips, zip, piz, pxr24 };  // pxr24 loses: 24-bit floats

@@ -194,7 +194,7 @@ constexpr SceneKey kKeys[] = {
     {"accuracy", "refraction_tolerance_beam_widths", kNone, ranges::kToleranceLines, "with refraction auto, rays stay straight if echoes shift less than this in the worst part of the picture and beat", AT(AccuracySettings, refraction_tolerance_beam_widths)},
     {"accuracy", "rolling_lines", kNone, kLines, "with acquisition.rolling: number of neighbouring lines that share one instant", AT(AccuracySettings, rolling_lines)},
     {"accuracy", "motion_field_cells", kNone, kFieldCells, "cells of the tissue's motion field along the diagonal of the moving surfaces; fewer take less time to set up", AT(AccuracySettings, motion_field_cells)},
-    {"accuracy", "tolerance_db", kDb, ranges::kTolerance_db, "selects the cheapest lines, samples and accuracy within this RMS error of the finest picture", kByHand},
+    {"accuracy", "tolerance_db", kDb, ranges::kTolerance_db, "render and plan select the cheapest lines, samples and accuracy within this RMS error of the finest picture", kByHand},
 
     {"output", "exr", kNone, kAny, "writes intensity/frame_*.exr", AT(OutputSettings, exr)},
     {"output", "channels", kNone, kAny, "list of channels of the EXR; those from structure.id on are ground truth, in mm and mm/s; velocity.beam: towards the probe, m/s", kChannels},

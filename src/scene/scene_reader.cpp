@@ -13,7 +13,6 @@
 #include "scene/probe_reader.h"
 #include "scene/signal_reader.h"
 #include "scene/structure_reader.h"
-#include "scene/tolerance_reader.h"
 #include "scene/toml_table.h"
 #include "scene/truth_reader.h"
 
@@ -63,19 +62,17 @@ void readOutput(TomlTable table, Scene& scene) {
   table.finish();
 }
 
-std::optional<SceneTolerance> readTolerance(TomlTable& table) {
-  constexpr std::string_view kKey = "tolerance_db";
-  if (!table.has(kKey)) return std::nullopt;
-  return SceneTolerance{readNumber(table, sceneKey("accuracy", kKey)), table.place(kKey)};
-}
-
 void readAccuracy(TomlTable table, Scene& scene) {
   readKeys(table, "accuracy", {&scene});
   const int slices = scene.accuracy.elevation_slices;
   if (slices % 2 == 0)
     table.fail("elevation_slices", fmt::format("is {}, accepted: 1, 3 or 5", slices));
   scene.accuracy.normals_place = table.place("normals");
-  readTolerance(table);  // who sets the accuracy; the scene as rendered has none
+  constexpr std::string_view kTolerance = "tolerance_db";
+  if (table.has(kTolerance)) {
+    scene.accuracy.tolerance_db = readNumber(table, sceneKey("accuracy", kTolerance));
+    scene.accuracy.tolerance_place = table.place(kTolerance);
+  }
   table.finish();
 }
 
@@ -172,12 +169,6 @@ Scene parseScene(std::string_view text, const std::filesystem::path& file) {
 Scene parseScene(std::string_view text, const std::filesystem::path& file,
                  const NamedMeshes& meshes) {
   return parse(text, file, &meshes);
-}
-
-std::optional<SceneTolerance> readSceneTolerance(const std::filesystem::path& file) {
-  TomlTable root = TomlTable::parse(readTextFile(file, kMaxSceneBytes), file.string());
-  TomlTable accuracy = root.table("accuracy");
-  return readTolerance(accuracy);
 }
 
 Scene readScene(const std::filesystem::path& file) {

@@ -162,7 +162,13 @@ AccuracyChoice chooseWithin(const Scene& scene, double tolerance_db, int threads
                             const Monitor& monitor) {
   AccuracyChoice choice;
   withThreads(threads, [&] { choice = Descent(scene, tolerance_db, monitor).run(scene); });
+  choice.scene.accuracy.tolerance_db.reset();
   return choice;
+}
+
+AccuracyChoice atOwnTolerance(const Scene& scene, int threads, const Monitor& monitor) {
+  if (!scene.accuracy.tolerance_db) return {scene, {}};
+  return chooseWithin(scene, *scene.accuracy.tolerance_db, threads, monitor);
 }
 
 AccuracyChoice atPreset(const Scene& scene, Preset preset) {

@@ -29,6 +29,9 @@ inline constexpr int kToleranceFrames = 4;
 AccuracyChoice chooseWithin(const Scene& scene, double tolerance_db, int threads,
                             const Monitor& monitor);
 
+// The same for the scene's own accuracy.tolerance_db. Without one, the scene as written.
+AccuracyChoice atOwnTolerance(const Scene& scene, int threads, const Monitor& monitor);
+
 // The scene at a preset.
 AccuracyChoice atPreset(const Scene& scene, Preset preset);
 

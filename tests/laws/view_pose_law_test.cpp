@@ -57,6 +57,7 @@ HeartFrame ownFrame(const heart::ParametricHeart& model) {
   frame.mitral = marks.mitral;
   frame.aortic = marks.aortic;
   frame.aortic_flow = marks.aortic_flow;
+  frame.has_left_atrium = true;
   return frame;
 }
 
@@ -96,6 +97,56 @@ TEST(ViewPoseLaw, FewRolesLeadToTheSameViews) {
       expectNear(poseIn(view, only(defaultSurfaces(), few.roles)),
                  ownPose(view, own, defaultSurfaces()), few.most_deg, few.most_mm,
                  std::string(few.what) + ", " + keyOf(view));
+}
+
+// How far the nearest place of the surfaces in front of the probe's face is, within 10 mm of the
+// beam.
+double distanceToHeart(View view, const HeartMarks& marks) {
+  const ProbePose pose = poseIn(view, marks);
+  double nearest_m = 1;
+  for (const Facet& facet : refined(marks.outside_m, 1e-3))
+    for (const Vec3d p : facet) {
+      const double deep_m = dot(p - pose.apex, pose.axis);
+      if (length(p - pose.apex - deep_m * pose.axis) < 10e-3 && deep_m > 0)
+        nearest_m = std::min(nearest_m, deep_m);
+    }
+  return nearest_m;
+}
+
+TEST(ViewPoseLaw, TheProbeStandsAtTheStatedDistanceFromTheHeart) {
+  const HeartMarks all = marksIn(defaultSurfaces());
+  for (const auto& [view, stated_m] : {std::pair{View::a4c, 16e-3},
+                                       {View::a2c, 16e-3},
+                                       {View::subcostal, 45e-3},
+                                       {View::tee_4c, 5e-3}})
+    EXPECT_NEAR(distanceToHeart(view, all), stated_m * all.frame.scale, 0.5e-3) << keyOf(view);
+  // Half the long axis stands for an atrium that the meshes lack.
+  const HeartMarks few = marksIn(only(
+      defaultSurfaces(), {Role::lv_cavity, Role::rv_cavity, Role::lv_wall, Role::mitral_valve}));
+  const HeartFrame& frame = few.frame;
+  EXPECT_GT(dot(frame.origin - poseIn(View::tee_4c, few).apex, frame.apical),
+            0.45 * frame.length_m);
+}
+
+// Only a valve or a vessel moves it from there.
+TEST(ViewPoseLaw, AnUnknownAorticValveIsAtItsMeanPlace) {
+  const HeartFrame frame =
+      marksIn(only(defaultSurfaces(), {Role::lv_cavity, Role::rv_cavity, Role::mitral_valve}))
+          .frame;
+  const double l = frame.length_m;
+  EXPECT_LT(length(frame.aortic - frame.at({-0.15 * l, 0.26 * l, 0.02 * l})), 1e-12);
+}
+
+// Parallel lines show what lies before them: neither what is beside them, nor slanting paths to it.
+TEST(ViewPoseLaw, ALinearProbeIsAsDeepAsItsImageNeeds) {
+  const ProbePose pose{{0, 0, 0}, {0, 0, 1}, {1, 0, 0}};
+  const auto plate = [](double x, double z) {
+    return Facet{Vec3d{x - 1e-3, 0, z}, Vec3d{x + 1e-3, 1e-3, z}, Vec3d{x + 1e-3, -1e-3, z}};
+  };
+  const Facets surface{plate(0.015, 0.10), plate(0.06, 0.14)};
+  const double none_m = fittingDepth(Facets{}, pose, -0.02, 0.02, 1);
+  EXPECT_NEAR(fittingDepth(surface, pose, -0.02, 0.02, 1) - none_m, 0.10, 1e-12);
+  EXPECT_NEAR(fittingDepth(surface, pose, -0.02, 0.07, 1) - none_m, 0.14, 1e-12);
 }
 
 // A turn about any axis, then a shift; or the mirror image of that.

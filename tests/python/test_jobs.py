@@ -1,5 +1,6 @@
 """Progress, stops, plans, studies and comparisons."""
 
+import json
 import os
 import signal
 import threading
@@ -73,6 +74,22 @@ def test_plan(scene):
     assert plan.frames == scene.frame_count and plan.seconds > 0 and plan.memory_bytes > 0
     assert {e["name"] for e in plan.effects} >= {"reflection", "attenuation"}
     assert "reflection" in repr(plan) and "<table>" in plan._repr_html_()
+    assert plan.details["white"] and "apex" in plan.details["probe_toml"]
+
+
+def test_a_tolerance_selects_the_same_settings_as_the_program(scene, tmp_path):
+    wanted = scene.copy()
+    wanted["accuracy.tolerance_db"] = 6.0
+    echocine.render(wanted, tmp_path / "loop")
+    manifest = json.loads((tmp_path / "loop" / "manifest.json").read_text())
+    assert manifest["accuracy"]["tolerance_db"] == 6.0 and manifest["accuracy"]["setting"]
+    probe = manifest["scene"]["probe"]
+    planned = echocine.plan(wanted)
+    assert planned.frames == scene.frame_count
+    memory = echocine.render(wanted)
+    assert memory.images.shape[0] == scene.frame_count
+    assert (probe["lines"], probe["samples"]) != (0, 0)
+    assert np.array_equal(memory.images, echocine.open(tmp_path / "loop").images)
 
 
 def test_threads_are_checked_everywhere(scene, tmp_path):

@@ -62,3 +62,5 @@ def test_doppler_measures_the_exact_velocity(tmp_path):
         echocine.doppler(scene, prf_hz=1e6)
     with pytest.raises(ValueError, match="depth_mm"):
         echocine.doppler(scene, angle_deg=1)
+    with pytest.raises(ValueError, match="volume_mm: needs a place"):
+        echocine.doppler(scene, volume_mm=3)

@@ -119,33 +119,6 @@ TEST_F(Reading, TagsOfAnotherPictureSizeAreCorrected) {
   EXPECT_TRUE(whole.video.notes.empty());
 }
 
-TEST_F(Reading, HeartRatesOfTagsAreTakenWhereAHeartCanBeatSo) {
-  const auto read = [&](const DcmTagKey& key, const char* value) {
-    writeDicom(folder / "loop.dcm", frames, 320, 240, DicomKind::grey,
-               [&](DcmDataset& data) { data.putAndInsertString(key, value); });
-    return readVideo(folder / "loop.dcm");
-  };
-  const Video rate = read(DCM_HeartRate, "66"), interval = read(DCM_NominalInterval, "800"),
-              none = read(DCM_HeartRate, "0");
-  EXPECT_EQ(rate.heart_rate_bpm, 66);
-  EXPECT_EQ(rate.heart_rate_source, "DICOM HeartRate");
-  EXPECT_EQ(interval.heart_rate_bpm, 75);
-  EXPECT_EQ(interval.heart_rate_source, "DICOM NominalInterval");
-  EXPECT_FALSE(none.heart_rate_bpm);
-  ASSERT_EQ(none.notes.size(), 1u);
-  EXPECT_NE(none.notes[0].find("HeartRate"), std::string::npos);
-}
-
-TEST_F(Reading, UnevenFrameTimesAreNoted) {
-  const auto notes_of = [&](const char* times) {
-    writeDicom(folder / "loop.dcm", frames, 320, 240, DicomKind::grey,
-               [&](DcmDataset& data) { data.putAndInsertString(DCM_FrameTimeVector, times); });
-    return readVideo(folder / "loop.dcm").notes.size();
-  };
-  EXPECT_EQ(notes_of("0\\20\\21\\19\\20"), 0u);
-  EXPECT_EQ(notes_of("0\\20\\20\\90\\20"), 1u);
-}
-
 TEST_F(Reading, WhatIsNoLoopIsRefusedInOneLine) {
   writeLossless(folder / "one.avi", {frames[0]}, 320, 240);
   expectRefusal(folder / "one.avi", "still image");

@@ -7,7 +7,9 @@
 #include "archive/echoxflow.h"
 #include "core/error.h"
 #include "support/beam_loops.h"
+#include "support/loop_scene.h"
 #include "support/run_files.h"
+#include "support/run_program.h"
 #include "support/temp_folder.h"
 
 namespace echocine {
@@ -35,6 +37,47 @@ TEST(BeamCatalogue, ADamagedCatalogueLeavesTheRecording) {
   writeEchoXFlow(loop, root, "exam", "loop");
   const auto catalogue = nlohmann::json::parse(bytesOf(root / "croissant.json"));
   EXPECT_EQ(catalogue.at("recordSet").at(1).at("data").size(), 2u);
+}
+
+// What is wrong with names and places ends the command before a loop is rendered.
+TEST(BeamCatalogue, NamesOfZeaAreCheckedBeforeTheRender) {
+  const TempFolder folder;
+  writeBall(folder, ballScene(4));
+  const std::string scene = " '" + (folder / "scene.toml").string() + "'",
+                    out = " -o '" + (folder / "loop.hdf5").string() + "'";
+  const auto refused = [&](const std::string& options, int code, const char* words) {
+    const Outcome o = runShell("%B archive" + scene + options);
+    EXPECT_EQ(o.code, code) << options << o.err;
+    EXPECT_NE(o.err.find(words), std::string::npos) << o.err;
+    EXPECT_EQ(o.err.find("rendering"), std::string::npos) << o.err;
+    EXPECT_FALSE(fs::is_regular_file(folder / "loop.hdf5"));
+  };
+  refused(out + " --layout zea --recording a", 2, "--recording");
+  refused(out + " --layout zea --exam ' '", 2, "--exam");
+  refused(" -o '" + folder.path().string() + "' --layout zea", 1, "is a folder");
+}
+
+// Warnings of a scene and of its plan are those of a render.
+TEST(BeamCatalogue, AnArchiveWarnsAsARender) {
+  const TempFolder folder;
+  SceneText text = ballScene(4);
+  text.probe["depth_mm"] = "400";
+  writeBall(folder, text);
+  const std::string scene = " '" + (folder / "scene.toml").string() + "'";
+  const auto warnings = [&](const std::string& command) {
+    const Outcome o = runShell("%B " + command);
+    EXPECT_EQ(o.code, 0) << o.err;
+    std::vector<std::string> lines;
+    for (const std::string& line : linesOf(o.err))
+      if (line.find("warning") != std::string::npos) lines.push_back(line);
+    return lines;
+  };
+  const auto rendered = warnings("render" + scene + " -o '" + (folder / "loop").string() + "'");
+  EXPECT_FALSE(rendered.empty());
+  EXPECT_EQ(warnings("archive" + scene + " --layout zea -o '" + (folder / "a.hdf5").string() + "'"),
+            rendered);
+  EXPECT_EQ(warnings("mmode" + scene + " -o '" + (folder / "m").string() + "'"), rendered);
+  EXPECT_EQ(warnings("doppler" + scene + " -o '" + (folder / "d").string() + "'"), rendered);
 }
 
 }  // namespace

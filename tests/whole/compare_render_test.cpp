@@ -43,6 +43,30 @@ TEST(ComparedRender, ARenderAgainstItselfIsPerfectAndItsResultsAreWhole) {
   EXPECT_TRUE(std::filesystem::exists(folder / "out/sector_real.png"));
 }
 
+// Beats of different lengths keep their own phases: bands and contours follow the manifest.
+TEST(ComparedRender, PhasesOfVariedBeatsAreThoseOfTheManifest) {
+  TempFolder folder;
+  SceneText text = ballScene(8);
+  text.acquisition["beats"] = "4";
+  text.acquisition["rr_variability"] = "0.2";
+  ASSERT_EQ(renderScene(writeBall(folder, text), folder / "loop").code, 0);
+  CompareOptions options;
+  options.synthetic = options.real = folder / "loop";
+  Comparison c;
+  withThreads(2, [&] { c = compareLoops(options); });
+  double worst = 0, worst_of_mean = 0;
+  for (std::size_t i = 0; i < c.frames.size(); ++i) {
+    const FrameResult& f = c.frames[i];
+    if (!f.counted() || f.synthetic_place != static_cast<double>(i)) continue;
+    const double mean_phase = f.synthetic_place / c.synthetic_beat.frames;
+    worst = std::max(worst, std::abs(f.synthetic_phase - c.synthetic.phases[i]));
+    worst_of_mean =
+        std::max(worst_of_mean, std::abs(std::remainder(mean_phase - c.synthetic.phases[i], 1.0)));
+  }
+  EXPECT_LT(worst, 1e-9);
+  EXPECT_GT(worst_of_mean, 0.02);
+}
+
 // A ball lies anywhere about its axis, so where its scene fits is only a hint: in the terminal, in
 // JSON and in the page's data. A scene is in mm, so a loop without a scale is refused.
 TEST(FittedRender, AFitOfASceneSaysWhatAReaderMustKnow) {

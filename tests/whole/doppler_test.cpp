@@ -188,14 +188,17 @@ TEST(Doppler, ARunLeavesNoSpectrumOfAnEarlierOne) {
   options.spectrum.emplace().at.depth_m = 0.065;
   writeDoppler(scene, options);
   const std::string whole = bytesOf(options.folder / "doppler.json");
-  folder.write("out/spectrum.csv.0123abcd.part", "half");
+  const char* const parts[] = {"spectrum.csv.0123abcd.part", "doppler.gif.0123abcd.part",
+                               "velocity/frame_0007.exr.0123abcd.part"};
+  for (const char* part : parts) folder.write(std::string("out/") + part, "half");
   options.spectrum->at.place = 1;  // rad, outside the sector
   EXPECT_THROW(writeDoppler(scene, options), SceneError);
   EXPECT_EQ(bytesOf(options.folder / "doppler.json"), whole);
   options.spectrum.reset();
   writeDoppler(scene, options);
-  for (const char* name : {"spectrum.csv", "spectrum.csv.0123abcd.part"})
-    EXPECT_FALSE(std::filesystem::exists(options.folder / name)) << name;
+  EXPECT_FALSE(std::filesystem::exists(options.folder / "spectrum.csv"));
+  for (const char* part : parts)
+    EXPECT_FALSE(std::filesystem::exists(options.folder / part)) << part;
   EXPECT_TRUE(std::filesystem::exists(options.folder / "doppler.json"));
 }
 
@@ -257,6 +260,7 @@ TEST(Doppler, RefusesWhatCannotBeMeasuredInOneLine) {
             std::string::npos);
   EXPECT_NE(refusal("--gate -1").find("--gate"), std::string::npos);
   EXPECT_NE(refusal("--through mitral-septal").find("role lv_"), std::string::npos);
+  EXPECT_NE(refusal("--volume 3").find("--volume"), std::string::npos);
   refusal("--angle 3");
 }
 

@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "core/hash_random.h"
+#include "core/seal.h"
 #include "export/export_loops.h"
 #include "support/echo_video.h"
 #include "support/run_program.h"
@@ -29,11 +32,13 @@ TEST(ExportLimits, OneLoopIsInMemoryAtATime) {
     planes.push_back(PixelPlane(kSide * kSide, static_cast<std::uint8_t>(2 * i)));
   fs::create_directories(folder / "0");
   writeLossless(folder / "0/cine.avi", planes, kSide, kSide, 40);
+  folder.write("0/manifest.json", sealed("{\n \"frames\": 0\n}"));
   std::string all;
   for (int n = 0; n < 8; ++n) {
     if (n > 0) {
       fs::create_directories(folder / std::to_string(n));
-      fs::copy(folder / "0/cine.avi", folder / std::to_string(n) / "cine.avi");
+      for (const char* file : {"cine.avi", "manifest.json"})
+        fs::copy(folder / "0" / file, folder / std::to_string(n) / file);
     }
     all += " '" + (folder / std::to_string(n)).string() + "'";
   }

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "core/hash_random.h"
 #include "core/parallel.h"
+#include "core/seal.h"
 #include "export/export_loops.h"
 #include "export/montage.h"
 #include "support/echo_video.h"
@@ -41,6 +42,7 @@ fs::path render(const fs::path& folder, int frames, double rate_hz) {
   std::vector<PixelPlane> planes;
   for (int i = 0; i < frames; ++i) planes.push_back(pictureOf(64, 48, i).pixels);
   writeLossless(folder / "cine.avi", planes, 64, 48, rate_hz);
+  std::ofstream(folder / "manifest.json") << sealed("{\n \"frames\": 0\n}");
   return folder;
 }
 
@@ -210,7 +212,7 @@ TEST(Export, ATintKeepsTheOrderOfGreys) {
   }
 }
 
-// Text beside the sector of a video may name a patient.
+// Text beside the sector of a video may name a patient, also in a folder that looks like a render.
 TEST(Export, OfAVideoOnlyTheSectorIsShown) {
   TempFolder folder;
   Drawing drawing;
@@ -220,16 +222,24 @@ TEST(Export, OfAVideoOnlyTheSectorIsShown) {
       for (std::size_t x = 2; x < 60; ++x)
         frame[y * static_cast<std::size_t>(drawing.width) + x] = x % 7 < 3 ? 255 : 0;
   writeLossless(folder / "real.avi", frames, drawing.width, drawing.height);
-  exported({folder / "real.avi"}, folder / "real.gif");
-  const Video video = readVideo(folder / "real.gif");
-  const auto at = [&](int x, int y) {
-    return int(video.frames[3][static_cast<std::size_t>(y * drawing.width + x)]);
-  };
-  int text = 0;
-  for (int y = 2; y < 12; ++y)
-    for (int x = 2; x < 60; ++x) text += at(x, y);
-  EXPECT_EQ(text, 0);
-  EXPECT_EQ(at(160, 120), int(frames[3][static_cast<std::size_t>(120 * drawing.width + 160)]));
+  for (const char* name : {"stopped", "scanner"}) {
+    fs::create_directories(folder / name);
+    fs::copy_file(folder / "real.avi", folder / name / "cine.avi");
+  }
+  folder.write("scanner/manifest.json", "{\n \"frames\": 0\n}\n");
+  for (const char* name : {"real.avi", "stopped", "scanner"}) {
+    SCOPED_TRACE(name);
+    exported({folder / name}, folder / "real.gif");
+    const Video video = readVideo(folder / "real.gif");
+    const auto at = [&](int x, int y) {
+      return int(video.frames[3][static_cast<std::size_t>(y * drawing.width + x)]);
+    };
+    int text = 0;
+    for (int y = 2; y < 12; ++y)
+      for (int x = 2; x < 60; ++x) text += at(x, y);
+    EXPECT_EQ(text, 0);
+    EXPECT_EQ(at(160, 120), int(frames[3][static_cast<std::size_t>(120 * drawing.width + 160)]));
+  }
 }
 
 TEST(Export, UnusableArgumentsEndInOneLine) {

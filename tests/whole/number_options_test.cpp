@@ -60,6 +60,14 @@ TEST_F(HostileArguments, OptionsOfAnotherModeAreRefused) {
                 "--synthetic-scale");
   expectRefused("compare a" + out + " --views all --knots 1,9", "--knots");
   expectRefused("compare a b" + out + " --view a4c", "--view");
+  expectRefused("compare a b" + out + " --band-mm 4", "--band-mm");
+  expectRefused("compare a b" + out + " --knots 1,9 --knot-count 3", "--knots");
+  expectRefused("plan a --interpolation --page p.html", "--page");
+  expectRefused("plan a --interpolation --preset draft", "--preset");
+  expectRefused("dataset --join a b" + out + " --threads 2", "--threads");
+  expectRefused("dataset spec.toml --join a b" + out, "spec");
+  expectRefused("dataset spec.toml --status a", "spec");
+  expectRefused("dataset --diff a", "--diff");
   expectRefused("dataset --join a b" + out + " --merge", "--join");
   expectRefused("dataset --status a --task 1/2", "--status");
   expectRefused("dataset a" + out + " --diff b --slurm", "--diff");

@@ -146,7 +146,7 @@ class Doppler(NamedTuple):
 
 def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 1000, pulses: int = 4, gate_mm: float = 1,
             wall_filter: str = "none", depth_mm: Optional[float] = None, angle_deg: Optional[float] = None,
-            offset_mm: Optional[float] = None, through: Optional[str] = None, volume_mm: float = 5, threads: int = 0,
+            offset_mm: Optional[float] = None, through: Optional[str] = None, volume_mm: Optional[float] = None, threads: int = 0,
             progress: Progress = None) -> Doppler:
     """Measures tissue velocities from pulses, as ``echocine doppler`` does.
 
@@ -159,7 +159,7 @@ def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 
         wall_filter: "none", "mean", "line" or "parabola": polynomial removed from each packet.
         depth_mm, angle_deg, offset_mm: place of a spectrum; offset_mm for linear probes.
         through: instead, a place of the heart, as for `mmode`.
-        volume_mm: length of the spectrum's sample volume.
+        volume_mm: length of the spectrum's sample volume; None: 5 mm.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
     """
@@ -167,6 +167,8 @@ def doppler(scene: Scene, folder: Optional[PathLike] = None, *, prf_hz: float = 
         raise ValueError("through: accepted: without depth_mm, angle_deg and offset_mm")
     if depth_mm is None and (angle_deg is not None or offset_mm is not None):
         raise ValueError("depth_mm: is None, accepted: a depth with angle_deg or offset_mm")
+    if volume_mm is not None and depth_mm is None and through is None:
+        raise ValueError("volume_mm: needs a place of the spectrum, accepted: with depth_mm or through")
     made: Dict[str, Any] = _echocine.doppler(_scene(scene), None if folder is None else Path(folder), prf_hz, pulses, gate_mm, wall_filter,
                                              depth_mm, angle_deg, offset_mm, through, volume_mm, thread_count(threads), report_to(progress))
     spectrum = None

@@ -28,10 +28,10 @@ def _number(value: float) -> str:
 
 def plain(value: Any, key: str) -> Any:
     """The value as TOML has it: NumPy's numbers and arrays become Python's. Else a TypeError names the key."""
+    if isinstance(value, (np.generic, np.ndarray)):  # first: np.float64 is a float whose repr() names its type
+        return plain(value.tolist(), key)
     if isinstance(value, (bool, int, float, str)):
         return value
-    if isinstance(value, (np.generic, np.ndarray)):
-        return plain(value.tolist(), key)
     if isinstance(value, Mapping):
         return {str(k): plain(v, f"{key}.{k}") for k, v in value.items()}
     if isinstance(value, (list, tuple)):
