@@ -167,14 +167,26 @@ Json catalogueWith(const Json& row, Json catalogue) {
   return catalogue;
 }
 
-// A complete store takes the name at once.
-void place(const fs::path& part, const fs::path& store) {
-  std::error_code failed;
-  fs::remove_all(store, failed);
+// A complete store takes the name at once. An earlier one is moved aside before and removed last,
+// so that a run that is killed here loses neither.
+void place(const fs::path& part, const fs::path& store, const fs::path& earlier) {
+  std::error_code failed, absent;
+  if (fs::exists(store, absent)) fs::rename(store, earlier, failed);
   if (!failed) fs::rename(part, store, failed);
-  if (failed)
+  if (failed) {
+    std::error_code ignored;
+    if (!fs::exists(store, absent)) fs::rename(earlier, store, ignored);
     throw JobError(fmt::format("{}: cannot be written: {}", store.string(), failed.message()));
+  }
   syncFolderOf(store);
+  fs::remove_all(earlier, absent);
+}
+
+// The earlier store of a run that was killed while it replaced it.
+void restore(const fs::path& store, const fs::path& earlier) {
+  std::error_code failed;
+  if (!fs::exists(store, failed)) fs::rename(earlier, store, failed);
+  fs::remove_all(earlier, failed);
 }
 
 }  // namespace
@@ -224,15 +236,17 @@ void writeEchoXFlow(const BeamLoop& loop, const fs::path& root, const std::strin
   const Json catalogue = catalogueIn(root / kCatalogue);
   makeFolder(root / exam);
   const fs::path store = root / exam / (recording + ".zarr"),
-                 part = root / exam / ("." + recording + ".zarr.part");
+                 part = root / exam / ("." + recording + ".zarr.part"),
+                 earlier = root / exam / ("." + recording + ".zarr.earlier");
   std::error_code ignored;
   fs::remove_all(part, ignored);
+  restore(store, earlier);
   writeZarr(part, {{"recording_manifest", manifestOf(loop, limit, role)}}, arrays);
   unstoppable([&] {
     syncAllOf(part);
     const Json row = rowOf(arrays, exam, recording, medianStep(loop.times_s));
     const std::string text = catalogueWith(row, catalogue).dump(1);
-    place(part, store);
+    place(part, store, earlier);
     writeFileWhole(root / kCatalogue, std::as_bytes(std::span(text)));
   });
 }

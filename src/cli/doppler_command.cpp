@@ -83,7 +83,7 @@ int DopplerCommand::run() {
   if (made.spectrum)
     fmt::print("  spectrum on scan line {} at {:.1f} mm\n", made.spectrum->line,
                millimetresFromMetres(made.spectrum->depth_m));
-  if (made.spectrum && made.spectrum->exact_peak > 0)
+  if (made.spectrum && made.spectrum->exact_peak != 0)
     fmt::print("  peak systolic velocity: {:.1f} cm/s, exact {:.1f} cm/s\n",
                kCentimetres * made.spectrum->mean_peak, kCentimetres * made.spectrum->exact_peak);
   return 0;

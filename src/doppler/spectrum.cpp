@@ -176,13 +176,16 @@ double exactVelocity(const Simulator& simulator, const FrameTime& time, const Vo
 void findPeaks(const Simulator& simulator, Spectrum& spectrum) {
   const std::optional<ValveTimes>& valves = simulator.truth()->valves();
   if (!valves) return;
-  for (std::size_t t = 0; t < spectrum.times.size(); ++t) {
-    if (spectrum.times[t].beat != 0 || spectrum.times[t].phase > valves->aortic_closes) break;
-    if (!std::isnan(spectrum.mean_m_s[t]))
-      spectrum.mean_peak = std::max(spectrum.mean_peak, spectrum.mean_m_s[t]);
-    if (!std::isnan(spectrum.exact_m_s[t]))
-      spectrum.exact_peak = std::max(spectrum.exact_peak, spectrum.exact_m_s[t]);
-  }
+  const auto peakOf = [&](const std::vector<double>& velocity_m_s) {
+    double peak = -std::numeric_limits<double>::infinity();
+    for (std::size_t t = 0; t < spectrum.times.size(); ++t) {
+      if (spectrum.times[t].beat != 0 || spectrum.times[t].phase > valves->aortic_closes) break;
+      if (!std::isnan(velocity_m_s[t])) peak = std::max(peak, velocity_m_s[t]);
+    }
+    return std::isinf(peak) ? 0 : peak;
+  };
+  spectrum.mean_peak = peakOf(spectrum.mean_m_s);
+  spectrum.exact_peak = peakOf(spectrum.exact_m_s);
 }
 
 void refuse(const char* option, double value, double least, double most, const char* unit) {

@@ -49,6 +49,7 @@ Volumes FrameStages::make(const FrameTime& time, const Making& making, Workspace
     stand(time, w);  // of a rolling frame for volumes and truth
     const LineGroup* only = some ? &*some : nullptr;
     if (!rolls) work = clock.time(Stage::trace, [&] { return rays.trace(time.frame, only, w); });
+    w.crossings = work.crossings;
     if (making.counted) tally.addFrame(work);
     if (making.received) making.received(w.polar.intensities);
     if (!rolls) process(time, lines, making.keeps_field, w);

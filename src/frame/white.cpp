@@ -1,10 +1,10 @@
 #include "frame/white.h"
 
+#include <atomic>
 #include <memory>
 
 #include "core/parallel.h"
 #include "core/stage_clock.h"
-#include "core/work_counts.h"
 #include "frame/making.h"
 #include "frame/simulator.h"
 #include "frame/workspace.h"
@@ -30,11 +30,13 @@ std::optional<double> measureWhite(const Simulator& simulator, std::span<const F
   const EffectPlan& effects = simulator.plan().effects;
   if (!wantsPicture(scene) || !effects.shows()) return 1;
   WhiteMeasure white(scene);
+  std::atomic<bool> sees_structures = false;  // in these frames
   const auto work = [&](std::size_t i) -> std::shared_ptr<void> {
     const std::shared_ptr<Workspace> workspace = simulator.workspace();
     Volumes volumes_ml = simulator.make(times[i], {.still = true}, *workspace);
     simulator.clock().time(
         Stage::signal, [&] { white.add(workspace->polar.intensities, workspace->polar.medium); });
+    if (workspace->crossings > 0) sees_structures = true;
     if (!keep) return nullptr;
     return std::make_shared<Traced>(
         Traced{std::exchange(workspace->polar, {}), std::move(volumes_ml)});
@@ -48,7 +50,6 @@ std::optional<double> measureWhite(const Simulator& simulator, std::span<const F
       parallelOrdered(0, times.size(), 2 * static_cast<std::size_t>(threadCount()),
                       monitor.keep_going, work, collect);
   if (done < times.size()) return std::nullopt;
-  const bool sees_structures = simulator.work().crossings > 0;
   return sees_structures || !effects.contrast ? white.white() : 1;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // Buffers of one frame.
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <variant>
@@ -22,7 +23,8 @@
 namespace echocine {
 
 struct Workspace {
-  double phase = -1;  // of surfaces and geometry
+  double phase = -1;            // of surfaces and geometry
+  std::uint64_t crossings = 0;  // of interfaces, in the frame that was traced last
   SurfaceFrame surfaces;
   Trabeculae::Smooth smooth{};                       // smooth surfaces, while others are displayed
   LeafletBodies::Sheets sheets{};                    // leaflets without thickness, likewise

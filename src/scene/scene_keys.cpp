@@ -161,7 +161,7 @@ constexpr SceneKey kKeys[] = {
 
     {"signal", "look", kNone, kAny, "selects the defaults of [signal], [trabeculae], [leaflets], [speckle], [artefacts] and accuracy.elevation_slices; keys in the scene override them", AT(SignalSettings, look)},
     {"signal", "quality", kNone, kAny, "strength of the artefacts in the looks of scanners", AT(SignalSettings, quality), kOptional, kWithQuality},
-    {"signal", "tgc", kNone, kAny, "time gain: perfect compensates each path's attenuation, mean the loop's mean at each depth, nominal that of soft tissue", AT(SignalSettings, tgc)},
+    {"signal", "tgc", kNone, kAny, "time gain: perfect compensates each path's attenuation, mean the beat's mean at each depth, nominal that of soft tissue", AT(SignalSettings, tgc)},
     {"signal", "tgc_nominal_db_cm_mhz", kNominalGain, ranges::kNominalGain_db_cm_mhz, "attenuation that the nominal gain compensates", AT(SignalSettings, nominal_gain_np_per_m_hz), kOptional, kWithNominal},
     {"signal", "tgc_table_mm_db", kNone, kAny, "pairs of depth and gain", kByHand, kAlways, kWithTable},
     {"signal", "near_gain_db", kDb, ranges::kPictureGain_db, "gain added at the face, falling linearly in dB to 0 at near_gain_depth_mm", AT(SignalSettings, near_gain_db)},

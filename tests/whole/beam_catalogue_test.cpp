@@ -39,6 +39,23 @@ TEST(BeamCatalogue, ADamagedCatalogueLeavesTheRecording) {
   EXPECT_EQ(catalogue.at("recordSet").at(1).at("data").size(), 2u);
 }
 
+// A run that is killed while it replaces a recording leaves the earlier one aside.
+TEST(BeamCatalogue, ARecordingIsReplacedWholly) {
+  const TempFolder folder;
+  const fs::path root = folder / "root", exam = root / "exam", zarr = exam / "loop.zarr";
+  writeEchoXFlow(smallBeamLoop(), root, "exam", "loop");
+  const std::string first = bytesOf(zarr / ".zattrs");
+  fs::rename(zarr, exam / ".loop.zarr.earlier");
+  BeamLoop other = smallBeamLoop(9);
+  other.scene.probe.max_depth_m = 0.1;
+  writeEchoXFlow(other, root, "exam", "loop");
+  EXPECT_NE(bytesOf(zarr / ".zattrs"), first);
+  std::vector<std::string> left;
+  for (const auto& entry : fs::directory_iterator(exam))
+    left.push_back(entry.path().filename().string());
+  EXPECT_EQ(left, std::vector<std::string>{"loop.zarr"});
+}
+
 // What is wrong with names and places ends the command before a loop is rendered.
 TEST(BeamCatalogue, NamesOfZeaAreCheckedBeforeTheRender) {
   const TempFolder folder;
