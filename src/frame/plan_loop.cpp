@@ -70,7 +70,8 @@ bool sameAsAllMedia(const Scene& scene, const Medium& medium) {
 
 // A closed structure of the background's medium shows only where it hides another one.
 bool invisible(const Scene& scene, const Structure& structure) {
-  if (structure.membrane) return sameAsAllMedia(scene, scene.medium(structure.medium));
+  if (structure.membrane && !hasThickness(scene, structure))
+    return sameAsAllMedia(scene, scene.medium(structure.medium));
   const Medium& medium = scene.medium(structure.medium);
   if (wants(scene, Channel::medium) || !sameMedium(medium, scene.medium(scene.background)))
     return false;

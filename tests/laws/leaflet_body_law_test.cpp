@@ -7,6 +7,7 @@
 #include "frame/simulator.h"
 #include "geometry/plane_slice.h"
 #include "plan/effect_plan.h"
+#include "plan/loop_plan.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_reader.h"
@@ -202,6 +203,20 @@ TEST(LeafletBodies, AnOpenLeafletOfAnApicalViewShows) {
     return most;
   };
   EXPECT_GT(brightest(1.5e-3), 4 * brightest(0));
+}
+
+// A sheet of the impedance of all around it reflects nothing; its body may still scatter.
+TEST(LeafletBodies, ShowByTheirBackscatterAlone) {
+  const support::TempFolder folder;
+  for (const double thickness_m : {0.0, 2e-3}) {
+    Scene scene = flatLeaflet(folder, thickness_m);
+    for (Medium& medium : scene.media) {
+      medium.impedance_kg_m2_s = 1.6e6;
+      medium.sound_speed_m_s = 1540;
+    }
+    const Simulator simulator(scene);
+    EXPECT_EQ(simulator.plan().left_out[scene.structures.size() - 1], thickness_m == 0);
+  }
 }
 
 TEST(LeafletBodies, ChangeThePictureAndNoTruth) {
