@@ -35,6 +35,11 @@ void checkOptions(const ExportOptions& o) {
   if (!o.captions.empty() && o.captions.size() != o.loops.size())
     throw SceneError(fmt::format("--captions: {} for {} loops; give one per loop",
                                  o.captions.size(), o.loops.size()));
+  for (const std::string& caption : o.captions)  // the font has these characters only
+    if (!std::all_of(caption.begin(), caption.end(), [](char c) { return c >= ' ' && c <= '~'; }))
+      throw SceneError(fmt::format(
+          "--captions: \"{}\" cannot be drawn, accepted: ASCII letters, digits and signs",
+          caption));
   checkRange("--columns", o.columns, 0, static_cast<double>(kMostExportedLoops));
   if (o.width != 0) checkRange("--width", o.width, kLeastExportWidth, kMostExportWidth);
   checkRange("--repeats", o.repeats, 1, kMostRepeats);

@@ -251,6 +251,10 @@ TEST(Export, UnusableArgumentsEndInOneLine) {
   const std::pair<std::string, std::string> kCases[] = {
       {loop + " -o " + out + ".mov'", "accepted: .mp4, .gif, .webp"},
       {loop + " -o " + out + ".gif' --captions a b", "2 for 1 loops"},
+      {loop + " -o " + out +
+           ".gif' --captions Vorh\xc3\xb6"
+           "fe",
+       "cannot be drawn"},
       {loop + " -o " + out + ".gif' --speed 0", "--speed: 0"},
       {loop + " -o " + out + ".gif' --speed nan", "--speed"},
       {loop + " -o " + out + ".gif' --width 5", "--width: 5"},
