@@ -23,8 +23,7 @@
 namespace echocine {
 
 struct Workspace {
-  double phase = -1;            // of surfaces and geometry
-  std::uint64_t crossings = 0;  // of interfaces, in the frame that was traced last
+  double phase = -1;  // of surfaces and geometry
   SurfaceFrame surfaces;
   Trabeculae::Smooth smooth{};                       // smooth surfaces, while others are displayed
   LeafletBodies::Sheets sheets{};                    // leaflets without thickness, likewise
@@ -35,6 +34,7 @@ struct Workspace {
   PolarFrame rolled{};  // lines of a rolling frame, as they are acquired
   Greys greys{};
   GreyImage image{};
+  std::uint64_t crossings = 0;  // of interfaces, in the frame that was traced last
 };
 
 // The planes of a frame for its EXR, in the order of the scene's channels.
