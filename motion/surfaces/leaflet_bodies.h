@@ -1,7 +1,7 @@
 #pragma once
-// Leaflets and cusps of the valves as bodies with thickness, in the picture only. The
-// mesh of a leaflet is the middle surface of its body. Contours, labels and motion are those of the
-// mesh; a leaflet has no volume there.
+// Leaflets and cusps of the valves as bodies with thickness, for the picture and its echoes only.
+// The mesh of a leaflet is the middle surface of its body. Contours, labels and motion are those of
+// the mesh; a leaflet has no volume there.
 
 #include <cstdint>
 #include <vector>

@@ -1,7 +1,7 @@
 #pragma once
-// Trabeculae: the rough inner surface of the ventricles, in the picture only. Muscle ridges extend
-// into the cavity, with blood between them. The meshes are unchanged: volumes, contours, labels and
-// motion are those of the smooth surface, about which the relief has mean 0.
+// Trabeculae: the rough inner surface of the ventricles, for the picture and its echoes only.
+// Muscle ridges extend into the cavity, with blood between them. The meshes are unchanged: volumes,
+// contours, labels and motion are those of the smooth surface, about which the relief has mean 0.
 
 #include <cstdint>
 #include <optional>

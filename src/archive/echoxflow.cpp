@@ -185,8 +185,14 @@ void place(const fs::path& part, const fs::path& store, const fs::path& earlier)
 // The earlier store of a run that was killed while it replaced it.
 void restore(const fs::path& store, const fs::path& earlier) {
   std::error_code failed;
-  if (!fs::exists(store, failed)) fs::rename(earlier, store, failed);
-  fs::remove_all(earlier, failed);
+  if (!fs::exists(earlier, failed)) return;
+  if (fs::exists(store, failed)) {
+    fs::remove_all(earlier, failed);
+    return;
+  }
+  fs::rename(earlier, store, failed);
+  if (failed)
+    throw JobError(fmt::format("{}: cannot be restored: {}", store.string(), failed.message()));
 }
 
 }  // namespace

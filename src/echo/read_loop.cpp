@@ -179,7 +179,11 @@ EchoLoop readLoop(const std::filesystem::path& path, const SideOptions& side, bo
   }
   Video& v = loop.video;
   loop.label = side.label.value_or(is_real ? "real loop" : "synthetic loop");
-  if (side.fps) v.rate = {*side.fps, is_real ? "--fps" : "--synthetic-fps", true};
+  if (side.fps) {
+    if (v.r_waves_by_frames)  // stay at their frames
+      for (double& wave_s : v.r_waves_s) wave_s *= v.rate.hz / *side.fps;
+    v.rate = {*side.fps, is_real ? "--fps" : "--synthetic-fps", true};
+  }
   if (side.heart_rate_bpm) {
     v.heart_rate_bpm = side.heart_rate_bpm;
     v.heart_rate_source = is_real ? "--heart-rate" : "--synthetic-heart-rate";

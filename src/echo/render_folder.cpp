@@ -26,6 +26,7 @@ namespace echocine::echo {
 namespace {
 
 using UnorderedJson = nlohmann::json;
+constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
 
 // The picture's geometry is worked out by the very function that rendered it, not read off the
 // pixels.
@@ -193,10 +194,20 @@ bool isRenderFolder(const std::filesystem::path& path) {
   return std::filesystem::is_regular_file(path / "manifest.json", failed);
 }
 
+bool holdsOwnCine(const std::filesystem::path& folder) {
+  if (!isRenderFolder(folder)) return false;
+  const std::string text = readTextFile(folder / "manifest.json", kMaxManifest);
+  if (!isSealed(text)) return false;
+  try {
+    return RenderedFiles(folder, UnorderedJson::parse(text).at("files")).holds("cine.avi");
+  } catch (const UnorderedJson::exception&) {
+    failOfDamage(folder.string(), "a key is absent or of another type");
+  }
+}
+
 // The manifest is written last, so a folder that has one is whole unless files were taken away
 // since.
 EchoLoop readRenderFolder(const std::filesystem::path& folder) {
-  constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
   const std::string name = folder.string();
   std::error_code failed;
   if (!std::filesystem::is_regular_file(folder / "cine.avi", failed))

@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/parallel.h"
-#include "core/seal.h"
 #include "core/stop.h"
 #include "echo/read_loop.h"
 #include "echo/render_folder.h"
@@ -57,18 +56,11 @@ struct ReadLoop {
   double rate_hz = 0;
 };
 
-// Only this program's seal proves that no patient's name is in the pictures of a folder.
-bool isSealedRender(const fs::path& folder) {
-  constexpr std::size_t kMaxManifest = std::size_t{1} << 28;
-  return echo::isRenderFolder(folder) &&
-         isSealed(readTextFile(folder / "manifest.json", kMaxManifest));
-}
-
 Video readFrames(const fs::path& path, const std::optional<double>& fps) {
   const fs::path cine = path / "cine.avi";
   std::error_code failed;
   const bool has_cine = fs::is_regular_file(cine, failed);
-  if (has_cine && isSealedRender(path)) return readVideo(cine);
+  if (has_cine && echo::holdsOwnCine(path)) return readVideo(cine);
   echo::SideOptions side;
   side.read_ecg = false;
   side.fps = fps;

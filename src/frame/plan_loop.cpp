@@ -64,8 +64,8 @@ bool overlap(const Box& a, const Box& b) {
 }
 
 bool sameAsAllMedia(const Scene& scene, const Medium& medium) {
-  return std::all_of(scene.media.begin(), scene.media.end(),
-                     [&](const Medium& m) { return sameInterface(m, medium); });
+  return std::ranges::all_of(scene.media,
+                             [&](const Medium& m) { return sameInterface(m, medium); });
 }
 
 // A closed structure of the background's medium shows only where it hides another one.
@@ -75,11 +75,10 @@ bool invisible(const Scene& scene, const Structure& structure) {
   const Medium& medium = scene.medium(structure.medium);
   if (wants(scene, Channel::medium) || !sameMedium(medium, scene.medium(scene.background)))
     return false;
-  return std::none_of(scene.structures.begin(), scene.structures.end(),
-                      [&](const Structure& other) {
-                        return !other.membrane && other.priority <= structure.priority &&
-                               !sameMedium(scene.medium(other.medium), medium);
-                      });
+  return std::ranges::none_of(scene.structures, [&](const Structure& other) {
+    return !other.membrane && other.priority <= structure.priority &&
+           !sameMedium(scene.medium(other.medium), medium);
+  });
 }
 
 void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {

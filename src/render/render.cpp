@@ -26,6 +26,7 @@
 #include "render/render_pass.h"
 #include "render/report.h"
 #include "signal/signal_chain.h"
+#include "trace/trace_frame.h"
 #include "video/dicom_writer.h"
 
 namespace echocine {
@@ -91,12 +92,12 @@ void noteCosts(const Simulator& simulator, RenderSummary& summary) {
 // Size of a frame that is kept from the measurement of white (loop/kept_frames.h), by its planes; 0
 // if the loop keeps none.
 double keptFrameBytes(const Simulator& simulator) {
-  if (simulator.plan().effects.rolling) return 0;
+  const EffectPlan& effects = simulator.plan().effects;
+  if (effects.rolling) return 0;
   const Scene& scene = simulator.scene();
-  constexpr std::size_t kIntensityAndMedium = 2, kField = 3;
-  const std::size_t planes = kIntensityAndMedium +
-                             (scene.output.exr ? scene.output.channels.size() : 0) +
-                             (simulator.chain().addsFields() ? kField : 0);
+  const PlaneRequest request = planeRequest(scene, effects);
+  const std::size_t planes = request.channels.size() + (request.intensities ? 1 : 0) +
+                             (simulator.chain().addsFields() ? 3 : 0);
   return static_cast<double>(planes * sizeof(float)) * scene.probe.lines * scene.probe.samples;
 }
 

@@ -97,7 +97,8 @@ struct SignalSettings {
   double pictureGain_db() const { return gain_db + examiner_gain_db; }
 };
 
-// Relief of the ventricles' inner surfaces, in the picture only (motion/surfaces/trabeculae.h).
+// Relief of the ventricles' inner surfaces, for the picture and its echoes only
+// (motion/surfaces/trabeculae.h).
 struct TrabeculaeSettings {
   double deviation_m = 0;  // standard deviation of its height about the mesh; 0: none
   double scale_m = 5e-3;   // about half the distance between ridges

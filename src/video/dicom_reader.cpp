@@ -94,8 +94,6 @@ void takeRate(double hz, const char* source, Video& video) {
     video.notes.push_back(fmt::format("its {} tag means {:.3g} frames/s: not used", source, hz));
 }
 
-constexpr const char* kByVector = "DICOM FrameTimeVector";
-
 // The frame at a time, between two of them a fraction. `steps_ms`: from the frame before; the first
 // is no step. Beyond the ends the first or last step goes on.
 double frameAt(double ms, const std::vector<double>& steps_ms) {
@@ -105,7 +103,6 @@ double frameAt(double ms, const std::vector<double>& steps_ms) {
   return static_cast<double>(i - 1) + (steps_ms[i] > 0 ? (ms - start_ms) / steps_ms[i] : 0);
 }
 
-// R waves are kept as times at the mean rate, so that they stand at their frames of an uneven loop.
 void takeTimes(DcmDataset& data, Video& video) {
   constexpr std::size_t kMostSteps = 100000, kMostBeats = 1000;
   if (const double ms = numberOf(data, DCM_FrameTime); ms > 0)
@@ -118,7 +115,7 @@ void takeTimes(DcmDataset& data, Video& video) {
   }
   if (steps_ms.size() > 1) {
     const double mean_ms = sum_ms / static_cast<double>(steps_ms.size() - 1);
-    takeRate(1e3 / mean_ms, kByVector, video);
+    takeRate(1e3 / mean_ms, "DICOM FrameTimeVector", video);
     noteUnevenFrames(longest_ms, mean_ms, video);
   }
   takeRate(numberOf(data, DCM_CineRate), "DICOM CineRate", video);
@@ -128,9 +125,10 @@ void takeTimes(DcmDataset& data, Video& video) {
     video.notes.emplace_back("its RWaveTimeVector tag has no ascending times: not used");
     return;
   }
-  const bool by_steps = steps_ms.size() > 1 && video.rate.source == kByVector;
+  video.r_waves_by_frames = steps_ms.size() > 1 && video.rate.hz > 0;
   for (const double ms : waves_ms)
-    video.r_waves_s.push_back(by_steps ? frameAt(ms, steps_ms) / video.rate.hz : 1e-3 * ms);
+    video.r_waves_s.push_back(video.r_waves_by_frames ? frameAt(ms, steps_ms) / video.rate.hz
+                                                      : 1e-3 * ms);
 }
 
 // At most 64 regions: a file may state any number of them.

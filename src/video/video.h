@@ -37,6 +37,8 @@ struct Video {
   std::optional<double> heart_rate_bpm;
   std::string heart_rate_source;  // "--heart-rate", "DICOM HeartRate", "DICOM NominalInterval"
   std::vector<double> r_waves_s;  // from the first frame, by the file's tags; ascending
+  // They are frames over rate.hz, by the times of uneven frames; otherwise as measured.
+  bool r_waves_by_frames = false;
   std::vector<UltrasoundRegion> regions;
   std::vector<int> repeats;        // frames that repeat the previous one
   std::vector<std::string> notes;  // anomalies found while reading, a line each

@@ -3,6 +3,7 @@
 import json
 import os
 import signal
+import subprocess
 import threading
 import time
 
@@ -10,7 +11,7 @@ import numpy as np
 import pytest
 
 import echocine
-from conftest import ball_scene
+from conftest import SMALL, ball_scene
 
 
 def test_progress_by_a_function(scene):
@@ -77,19 +78,19 @@ def test_plan(scene):
     assert plan.details["white"] and "apex" in plan.details["probe_toml"]
 
 
-def test_a_tolerance_selects_the_same_settings_as_the_program(scene, tmp_path):
-    wanted = scene.copy()
-    wanted["accuracy.tolerance_db"] = 6.0
-    echocine.render(wanted, tmp_path / "loop")
-    manifest = json.loads((tmp_path / "loop" / "manifest.json").read_text())
-    assert manifest["accuracy"]["tolerance_db"] == 6.0 and manifest["accuracy"]["setting"]
-    probe = manifest["scene"]["probe"]
-    planned = echocine.plan(wanted)
-    assert planned.frames == scene.frame_count
-    memory = echocine.render(wanted)
-    assert memory.images.shape[0] == scene.frame_count
-    assert (probe["lines"], probe["samples"]) != (0, 0)
-    assert np.array_equal(memory.images, echocine.open(tmp_path / "loop").images)
+def test_a_tolerance_selects_the_same_settings_as_the_program(program, tmp_path):
+    subprocess.run([program, "heart", "--keyframes", "4", "--look", "paper", "-o", tmp_path / "heart", "--quiet"], check=True)
+    scene = echocine.Scene(tmp_path / "heart" / "scene.toml")
+    scene.update(SMALL)
+    scene["accuracy.tolerance_db"] = 6.0
+    file = tmp_path / "heart" / "tolerant.toml"
+    file.write_text(scene.text)
+    echocine.render(scene, tmp_path / "loop")
+    subprocess.run([program, "render", file, "-o", tmp_path / "program", "--quiet"], check=True)
+    own, other = (json.loads((tmp_path / name / "manifest.json").read_text()) for name in ("loop", "program"))
+    assert own["accuracy"]["tolerance_db"] == 6.0 and own["accuracy"]["setting"] == other["accuracy"]["setting"]
+    assert own["scene_sha256"] == other["scene_sha256"]
+    assert np.array_equal(echocine.render(scene).images, echocine.open(tmp_path / "program").images)
 
 
 def test_threads_are_checked_everywhere(scene, tmp_path):

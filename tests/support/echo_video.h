@@ -11,13 +11,16 @@
 #include <dcmtk/dcmjpeg/djrplol.h>
 
 #include <cmath>
+#include <fstream>
 #include <functional>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
 #include <vector>
 
+#include "core/hash.h"
 #include "core/hash_random.h"
+#include "core/seal.h"
 #include "echo/echo_loop.h"
 #include "video/cine_writer.h"
 
@@ -90,6 +93,13 @@ inline echo::Sector placedSector(const Drawing& d) {
   s.r_min *= d.scale;
   s.r_max *= d.scale;
   return s;
+}
+
+// A render's manifest, as far as it proves that the folder's cine.avi is its own.
+inline void writeManifestOfCine(const std::filesystem::path& folder) {
+  const std::string digest = sha256HexOfFile(folder / "cine.avi");
+  std::ofstream(folder / "manifest.json")
+      << sealed("{\n \"files\": {\n  \"cine.avi\": \"" + digest + "\"\n }\n}");
 }
 
 // FFV1 in AVI: every grey comes back as it was.

@@ -8,7 +8,6 @@
 #include <cmath>
 
 #include "core/hash_random.h"
-#include "core/seal.h"
 #include "export/export_loops.h"
 #include "support/echo_video.h"
 #include "support/run_program.h"
@@ -32,7 +31,7 @@ TEST(ExportLimits, OneLoopIsInMemoryAtATime) {
     planes.push_back(PixelPlane(kSide * kSide, static_cast<std::uint8_t>(2 * i)));
   fs::create_directories(folder / "0");
   writeLossless(folder / "0/cine.avi", planes, kSide, kSide, 40);
-  folder.write("0/manifest.json", sealed("{\n \"frames\": 0\n}"));
+  writeManifestOfCine(folder / "0");
   std::string all;
   for (int n = 0; n < 8; ++n) {
     if (n > 0) {

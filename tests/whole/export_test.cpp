@@ -8,7 +8,6 @@
 #include "core/error.h"
 #include "core/hash_random.h"
 #include "core/parallel.h"
-#include "core/seal.h"
 #include "export/export_loops.h"
 #include "export/montage.h"
 #include "support/echo_video.h"
@@ -42,7 +41,7 @@ fs::path render(const fs::path& folder, int frames, double rate_hz) {
   std::vector<PixelPlane> planes;
   for (int i = 0; i < frames; ++i) planes.push_back(pictureOf(64, 48, i).pixels);
   writeLossless(folder / "cine.avi", planes, 64, 48, rate_hz);
-  std::ofstream(folder / "manifest.json") << sealed("{\n \"frames\": 0\n}");
+  writeManifestOfCine(folder);
   return folder;
 }
 
@@ -222,12 +221,14 @@ TEST(Export, OfAVideoOnlyTheSectorIsShown) {
       for (std::size_t x = 2; x < 60; ++x)
         frame[y * static_cast<std::size_t>(drawing.width) + x] = x % 7 < 3 ? 255 : 0;
   writeLossless(folder / "real.avi", frames, drawing.width, drawing.height);
-  for (const char* name : {"stopped", "scanner"}) {
-    fs::create_directories(folder / name);
-    fs::copy_file(folder / "real.avi", folder / name / "cine.avi");
-  }
-  folder.write("scanner/manifest.json", "{\n \"frames\": 0\n}\n");
-  for (const char* name : {"real.avi", "stopped", "scanner"}) {
+  fs::create_directories(folder / "stopped");
+  fs::create_directories(folder / "scanner");
+  render(folder / "replaced", 4, 25);
+  for (const char* name : {"stopped", "scanner", "replaced"})
+    fs::copy_file(folder / "real.avi", folder / name / "cine.avi",
+                  fs::copy_options::overwrite_existing);
+  folder.write("scanner/manifest.json", "{\n \"files\": {}\n}\n");
+  for (const char* name : {"real.avi", "stopped", "scanner", "replaced"}) {
     SCOPED_TRACE(name);
     exported({folder / name}, folder / "real.gif");
     const Video video = readVideo(folder / "real.gif");

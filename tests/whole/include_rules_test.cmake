@@ -64,7 +64,7 @@ set(rooms
   "archive=loop|hdf,zarr,surfaces,cycle,truth,output"
   "fit=echo,heart,surfaces,geometry,truth,signal,page|interior,frame,video,output,view"
   "compare=echo,fit,metrics,signal,truth,page|surfaces,video"
-  "render=loop,frame,cycle,output,page,video,truth|plan,signal,surfaces,view"
+  "render=loop,frame,cycle,output,page,video,truth|plan,signal,trace,surfaces,view"
   "study=plan,frame,cycle,output,video,metrics|loop,surfaces,keyframes,trace,signal,render,page"
   "echocine=render,loop,frame,heart"
   "dataset=output,surfaces,cycle,heart,truth,signal|hdf,frame,loop,views,video,page,metrics,echo"

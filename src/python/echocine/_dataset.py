@@ -286,7 +286,7 @@ def dataset(spec: Spec, folder: PathLike, *, task: Optional[Tuple[int, int]] = N
     Args:
         spec: a spec file's path, its TOML text (with a line break), or a dict of its tables. Required are ``hearts``, how
             many, and ``views``, such as ["a4c", "a2c"]. ``layouts``: "native", "echonet", "camus", "nnunet",
-            "pointodyssey"; ``truth``: "labels", "contours", "function", "tracks". ``heart`` has dials as `dials()` lists
+            "pointodyssey", "myotracker", "dicom", "webdataset"; ``truth``: "labels", "contours", "function", "tracks". ``heart`` has dials as `dials()` lists
             them, ``scene`` tables of a scene's keys. Where a number may stand, a distribution may:
             {"uniform": [0.4, 0.7]}, {"whole": [50, 90]}, {"normal": [0.6, 0.05], "within": [0.5, 0.7]},
             {"choice": ["good", "poor"], "weights": [0.7, 0.3]}.

@@ -93,7 +93,7 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     Args:
         loops: view -> a loop that ``compare`` reads, such as ``{"a4c": "a4c.dcm"}``.
             Or a list of them: their views are ranked, 36 s of one core each, and refused if they are unclear.
-        folder: for fit.json, curves.csv and heart/ (meshes and scene); None: no files.
+        folder: for fit.json, fit.html, curves.csv and heart/ (meshes and scene); None: no files.
         side: view -> what is known better than the file tells, as for `compare`: mm_per_pixel, fps, ed_frame, ...
             For a list of loops, a list.
         searched: dials that are searched, of ef, edv, wall_thickness, sphericity, mapse, conicity, apical_motion,

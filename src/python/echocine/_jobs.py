@@ -186,7 +186,7 @@ def export(loops: Union[Loop, PathLike, Sequence[Union[Loop, PathLike]]], output
 
     Args:
         loops: one or several, up to 16: folders of renders, videos, DICOM files, or loops. A loop in memory is rendered into
-            a folder that is removed. Videos show the sector only.
+            a folder that is removed. Videos and folders of unfinished renders show the sector only.
         output: .mp4, .gif or .webp; an existing file is replaced.
         captions: one per loop.
         columns: of the grid; 0: nearly square.
