@@ -20,8 +20,8 @@ namespace {
 constexpr double kSamePhase = 1e-9;
 
 // The loop's frames, one for each phase: the earliest.
-std::vector<FramePhase> differentFrames(const Acquisition& acquisition) {
-  const CardiacClock clock(acquisition);
+std::vector<FramePhase> differentFrames(const Scene& scene) {
+  const CardiacClock clock(scene);
   std::vector<FramePhase> frames;
   for (int i = 0; i < clock.frameCount(); ++i) frames.push_back({i, clock.at(i).phase});
   std::stable_sort(frames.begin(), frames.end(),
@@ -147,7 +147,7 @@ std::string advice(const SurfaceBreaks& breaks, Interpolation kind) {
 }  // namespace
 
 std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& motion) {
-  const std::vector<FramePhase> frames = differentFrames(scene.acquisition);
+  const std::vector<FramePhase> frames = differentFrames(scene);
   const Interpolation kind = scene.motion.interpolation;
   std::vector<std::string> warnings;
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
@@ -172,7 +172,7 @@ std::vector<std::string> motionWarnings(const Scene& scene, const MeshMotion& mo
 }
 
 void refuseInverted(const Scene& scene, const MeshMotion& motion) {
-  const std::vector<FramePhase> frames = differentFrames(scene.acquisition);
+  const std::vector<FramePhase> frames = differentFrames(scene);
   for (std::size_t s = 0; s < scene.structures.size(); ++s) {
     const ControlMotion& control = motion.control(static_cast<SurfaceId>(s));
     if (const auto found = findInsideOut(control, frames))

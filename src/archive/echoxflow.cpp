@@ -10,6 +10,7 @@
 #include "core/error.h"
 #include "core/file.h"
 #include "core/folder_lock.h"
+#include "core/output_check.h"
 #include "core/stop.h"
 #include "scene/scan_geometry.h"
 #include "scene/view_names.h"
@@ -135,7 +136,8 @@ Json rowOf(const std::vector<ZarrArray>& arrays, const std::string& exam,
 
 // The catalogue in the file, or one without recordings.
 Json catalogueIn(const fs::path& file) {
-  if (!fs::exists(file))
+  std::error_code absent;
+  if (!fs::exists(file, absent))
     return {{"@type", "sc:Dataset"}, {"name", "EchoCine"}, {"recordSet", Json::array()}};
   Json catalogue = Json::parse(readTextFile(file, kMostCatalogue), nullptr, false);
   if (!catalogue.is_object() || !catalogue.contains("recordSet") ||
@@ -202,6 +204,7 @@ void checkEchoXFlow(const Scene& scene, const fs::path& root, const std::string&
   if (!exam.empty()) refuseName("--exam", exam);
   if (!recording.empty()) refuseName("--recording", recording);
   refuseProbe(scene.probe);
+  checkOutputFolder(root, {kCatalogue});
   catalogueIn(root / kCatalogue);
 }
 

@@ -9,8 +9,8 @@
 
 namespace echocine {
 
-// Throws SceneError for what writeEchoXFlow() refuses, before a loop is rendered. An empty name is
-// one that follows from the loop.
+// Throws SceneError for what writeEchoXFlow() refuses, before a loop is rendered, and JobError if
+// the root takes no files. An empty name is one that follows from the loop.
 void checkEchoXFlow(const Scene& scene, const std::filesystem::path& root, const std::string& exam,
                     const std::string& recording);
 

@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <span>
-#include <system_error>
 
 #include "core/error.h"
 #include "core/file.h"
-#include "core/part_file.h"
+#include "core/output_check.h"
 #include "hdf/hdf5_file.h"
 #include "scene/scan_geometry.h"
 
@@ -40,11 +39,7 @@ void refuseBlank(const std::string& subject) {
 
 void checkZea(const std::filesystem::path& file, const std::string& subject) {
   if (!subject.empty()) refuseBlank(subject);
-  std::error_code absent;
-  if (std::filesystem::is_directory(file, absent))
-    throw JobError(fmt::format("{}: is a folder, a file is needed there", file.string()));
-  removePartsOf(file);          // of a run that was killed here
-  const WholeFile trial(file);  // removed again, because it is not finished
+  checkOutputFile(file);
 }
 
 void writeZea(const BeamLoop& loop, const std::filesystem::path& file, const std::string& subject) {

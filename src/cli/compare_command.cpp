@@ -12,6 +12,7 @@
 #include "cli/view_list.h"
 #include "compare/results.h"
 #include "core/error.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "core/units.h"
 #include "fit/fit_report.h"
@@ -159,7 +160,8 @@ CompareCommand::CompareCommand(CLI::App& app)
 }
 
 template <typename Make, typename Write>
-int CompareCommand::runAndTell(const Make& make, const Write& write) const {
+int CompareCommand::runAndTell(const char* last, const Make& make, const Write& write) const {
+  checkOutputFolder(folder_, {last});
   ProgressLine line(quiet_);
   withThreads(threads_, [&] {
     const auto result = make(line.monitor());
@@ -189,7 +191,7 @@ int CompareCommand::run() {
   options_.real_side.read_ecg = options_.synthetic_side.read_ecg = !no_ecg_;
   checkOptions(options_);
   return runAndTell(
-      [&](const auto& monitor) { return compareLoops(options_, monitor); },
+      "summary.json", [&](const auto& monitor) { return compareLoops(options_, monitor); },
       [&](const auto& comparison, const auto& to) { writeResults(comparison, options_, to); });
 }
 
@@ -223,7 +225,8 @@ int CompareCommand::runScan() {
   scan_.side = options_.real_side;
   scan_.side.read_ecg = !no_ecg_;
   scan_.tilt_deg = options_.tilt_deg;
-  return runAndTell([&](const auto& monitor) { return scanDials(scan_, monitor); }, fit::writeScan);
+  return runAndTell(
+      "scan.json", [&](const auto& monitor) { return scanDials(scan_, monitor); }, fit::writeScan);
 }
 
 int CompareCommand::runViews() {
@@ -235,8 +238,9 @@ int CompareCommand::runViews() {
   options.side = options_.real_side;
   options.side.read_ecg = !no_ecg_;
   options.tilt_deg = options_.tilt_deg;
-  return runAndTell([&](const auto& monitor) { return rankViews(options, monitor); },
-                    fit::writeViews);
+  return runAndTell(
+      "views.json", [&](const auto& monitor) { return rankViews(options, monitor); },
+      fit::writeViews);
 }
 
 }  // namespace echocine

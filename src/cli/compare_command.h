@@ -25,7 +25,7 @@ class CompareCommand {
   int runViews();
   // Computes the result with a progress line, writes it into the folder and prints its table.
   template <typename Make, typename Write>
-  int runAndTell(const Make& make, const Write& write) const;
+  int runAndTell(const char* last, const Make& make, const Write& write) const;
   // For a command that compares its own hearts with one loop.
   void needOneLoop(const char* option) const;
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
-#include <charconv>
 #include <chrono>
 
+#include "cli/dataset_arguments.h"
 #include "cli/documents.h"
 #include "cli/progress_bar.h"
 #include "cli/stop_signal.h"
@@ -21,43 +21,13 @@
 #include "dataset/preview.h"
 #include "dataset/slurm.h"
 #include "dataset/status.h"
+#include "dataset/work_folder.h"
 
 namespace echocine {
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// "3/7": the third of seven parts.
-std::pair<int, int> parseTask(const std::string& text) {
-  std::pair<int, int> task{0, 0};
-  const char* const end = text.data() + text.size();
-  const auto first = std::from_chars(text.data(), end, task.first);
-  const bool slash = first.ec == std::errc() && first.ptr != end && *first.ptr == '/';
-  const auto second = slash ? std::from_chars(first.ptr + 1, end, task.second) : first;
-  if (!slash || second.ec != std::errc() || second.ptr != end || task.first < 1 ||
-      task.first > task.second)
-    throw SceneError(fmt::format(
-        "--task: \"{}\" is not a part, accepted: K/N, the K-th of N parts, such as 1/8", text));
-  return task;
-}
-
-// "loop.avi=0.31": a loop, and the side of its square pixels.
-dataset::RealLoop parseRealLoop(const std::string& text) {
-  constexpr double kLeast_mm = 0.01, kMost_mm = 10;
-  const std::size_t sign = text.rfind('=');
-  double mm = 0;
-  const char* const end = text.data() + text.size();
-  const auto read = sign == std::string::npos || sign == 0
-                        ? std::from_chars_result{end, std::errc::invalid_argument}
-                        : std::from_chars(text.data() + sign + 1, end, mm);
-  if (read.ec != std::errc() || read.ptr != end || !(mm >= kLeast_mm && mm <= kMost_mm))
-    throw SceneError(fmt::format(
-        "--real: \"{}\" is not a loop and a number of {:g} to {:g} mm per pixel, accepted: "
-        "FILE=MM, such as real.avi=0.31",
-        text, kLeast_mm, kMost_mm));
-  return {text.substr(0, sign), mm};
-}
 
 Monitor countingHearts(ProgressBar& bar, bool quiet) {
   const auto tell = [&bar](const Progress& p) {
@@ -204,7 +174,10 @@ int DatasetCommand::make() {
   }
   // A run without --merge has just proven the bytes of what it kept.
   dataset::MergeOptions merging{.fast = fast_ || !merge_, .threads = threads_};
-  for (const std::string& loop : real_) merging.real.push_back(parseRealLoop(loop));
+  for (const std::string& loop : real_) {
+    const auto [file, mm_per_pixel] = parseRealLoop(loop);
+    merging.real.push_back({file, mm_per_pixel});
+  }
   const dataset::MakeSummary merged = dataset::mergeParts(
       spec, folder_, merging,
       {.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)});
@@ -228,8 +201,9 @@ int DatasetCommand::status() const {
 
 int DatasetCommand::difference() const {
   const auto textOf = [](const std::filesystem::path& file) {
-    return std::filesystem::is_directory(file) ? dataset::readFolderSpec(file).text
-                                               : dataset::readSpec(file).text;
+    std::error_code absent;
+    return std::filesystem::is_directory(file, absent) ? dataset::readFolderSpec(file).text
+                                                       : dataset::readSpec(file).text;
   };
   const auto& own = spec_file_.empty() ? folder_ : spec_file_;
   if (own.empty()) throw SceneError("--diff: needs a spec, or a folder in --output");
@@ -274,6 +248,7 @@ int DatasetCommand::slurm(const dataset::Spec& spec) const {
   options.minutes = minutes_;
   dataset::HeartCost cost;
   if (tasks_ == 0 || minutes_ == 0) {
+    const dataset::WorkFolder refused_here(folder_, spec);  // not after a heart
     cost = dataset::costOfAHeart(spec, folder_, {.keep_going = [] { return !stopWanted(); }});
     const double heart_s = cost.seconds;
     if (tasks_ == 0) options.tasks = dataset::slurmTasks(spec.hearts, heart_s, cores_);

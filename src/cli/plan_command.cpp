@@ -11,6 +11,7 @@
 #include "cli/interpolation_table.h"
 #include "cli/stop_signal.h"
 #include "cli/warning_printer.h"
+#include "core/output_check.h"
 #include "motion/surfaces/probe_placement.h"
 #include "render/estimate.h"
 #include "scene/probe_pose.h"
@@ -94,6 +95,7 @@ int PlanCommand::run() {
     printInterpolation(placed(readScene(scene_file_)), json_);
     return 0;
   }
+  if (!page_.empty()) checkOutputFile(page_);
   Scene scene = placed(readScene(scene_file_));
   accuracy_.resolve(scene, threads_, quiet_);
   const Monitor monitor{.keep_going = [] { return !stopWanted(); }, .warn = warningPrinter(quiet_)};

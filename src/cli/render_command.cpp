@@ -8,6 +8,7 @@
 #include "cli/documents.h"
 #include "cli/progress_line.h"
 #include "core/error.h"
+#include "core/output_check.h"
 #include "core/stop.h"
 #include "frame/plan_loop.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -120,6 +121,7 @@ int RenderCommand::renderAndTell() {
   askForTruth(truth_, scene);
   scene.output.dicom |= dicom_;
   if (!frames_.empty()) options_.frames = parseRange(frames_, CardiacClock(scene).frameCount());
+  checkOutputFolder(options_.folder, {"manifest.json"});
   options_.accuracy = accuracy_.resolve(scene, options_.threads, quiet_);
   ProgressLine line(quiet_);
   const RenderSummary summary = renderLoop(scene, options_, line.monitor());

@@ -14,6 +14,7 @@
 #include "core/parallel.h"
 #include "core/shown_path.h"
 #include "fit/fit_report.h"
+#include "scene/scene_reader.h"
 
 namespace echocine::compare {
 
@@ -166,6 +167,7 @@ Comparison compareLoops(const CompareOptions& options, const Monitor& monitor) {
     throw SceneError(
         "--tilt: needs --scene, the scene that the synthetic loop was rendered from: another plane "
         "is cut from its meshes");
+  if (!options.scene.empty()) readScene(options.scene);  // refused before the loops are read
   Steps steps(monitor);
   Comparison c;
   c.synthetic = echo::readLoop(options.synthetic, options.synthetic_side, false);

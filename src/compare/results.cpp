@@ -252,7 +252,8 @@ void writeResults(const Comparison& c, const CompareOptions& options,
     for (const BandMetrics& b : c.mean_bands)
       if (b.structure != "all") summary["contours"].push_back(b.structure);
   page.finish(summary, real, synthetic);
-  text("summary.json", summary.dump(1) + "\n");
+  text("summary.json",
+       summary.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace echocine::compare

@@ -10,7 +10,7 @@ namespace echocine::dataset {
 
 HeartCost costOfAHeart(const Spec& spec, const std::filesystem::path& output,
                        const Monitor& monitor) {
-  std::filesystem::path scratch = output;
+  std::filesystem::path scratch = output.has_filename() ? output : output.parent_path();
   scratch += ".part.d";
   const auto remove = [&] {
     std::error_code failed;

@@ -183,10 +183,8 @@ Records provenRecords(const Spec& spec, const WorkFolder& work, const MergeOptio
 }
 
 // Into the card and dataset.json.
-void addRealLoops(const Spec& spec, const WorkFolder& work, const MergeOptions& options,
-                  const Monitor& monitor, std::span<const Json> records, DatasetFacts& facts) {
-  if (!spec.has("native"))
-    throw SceneError("--real: the dataset has no layout \"native\", accepted: a dataset with it");
+void addRealLoops(const WorkFolder& work, const MergeOptions& options, const Monitor& monitor,
+                  std::span<const Json> records, DatasetFacts& facts) {
   withThreads(options.threads, [&] {
     const RealComparison comparison =
         compareWithReal(work.folder(), records, options.real, monitor);
@@ -199,12 +197,13 @@ void addRealLoops(const Spec& spec, const WorkFolder& work, const MergeOptions& 
 
 MakeSummary mergeParts(const Spec& spec, const std::filesystem::path& folder,
                        const MergeOptions& options, const Monitor& monitor) {
+  if (!options.real.empty()) checkRealLoops(spec, options.real);
   const WorkFolder work(folder, spec);
   const FileLock lock(folder / "work/merge" / kLockName);
   MakeSummary summary;
   const Records records = provenRecords(spec, work, options, monitor, summary);
   DatasetFacts facts = factsOf(spec);
-  if (!options.real.empty()) addRealLoops(spec, work, options, monitor, records.finished, facts);
+  if (!options.real.empty()) addRealLoops(work, options, monitor, records.finished, facts);
   work.removeParts();
   Sink sink(folder);
   try {

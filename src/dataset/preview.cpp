@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/file.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "dataset/heart_cost.h"
@@ -87,6 +88,7 @@ Json drawnJson(const Spec& spec) {
 
 PreviewSummary writePreview(const Spec& spec, const std::filesystem::path& page, int hearts,
                             int threads, const Monitor& monitor) {
+  checkOutputFile(page);
   hearts = std::min(hearts, spec.hearts);
   const auto count = static_cast<std::size_t>(hearts);
   PreviewSummary summary;

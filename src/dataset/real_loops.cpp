@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "echo/sector.h"
@@ -121,9 +122,19 @@ std::vector<RealComparison::Weight> strongestOf(const FeatureRows& simulated,
 
 }  // namespace
 
+void checkRealLoops(const Spec& spec, std::span<const RealLoop> real) {
+  if (!spec.has("native"))
+    throw SceneError("--real: the dataset has no layout \"native\", accepted: a dataset with it");
+  if (real.size() < 2) throw SceneError("--real: is one loop, accepted: two or more");
+  std::error_code failed;
+  for (const RealLoop& loop : real)
+    if (!std::filesystem::exists(loop.file, failed))
+      throw SceneError(fmt::format("--real: {}: no such file", loop.file.string()));
+}
+
 RealComparison compareWithReal(const std::filesystem::path& folder, std::span<const Json> records,
                                std::span<const RealLoop> real, const Monitor& monitor) {
-  if (real.size() < 2) throw SceneError("--real: is one loop, accepted: two or more");
+  CHECK(real.size() >= 2);
   if (records.size() < 2)
     throw SceneError("--real: the dataset has fewer than two hearts, accepted: two or more");
   const std::vector<FeatureRows> of_real = measuredLoops(real, monitor);

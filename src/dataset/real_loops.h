@@ -31,13 +31,17 @@ struct RealComparison {
   std::vector<Weight> strongest;  // the two largest weights
 };
 
+// Throws SceneError for what compareWithReal() refuses without reading a loop: a spec without
+// native loops, fewer than two real loops, or one that does not exist.
+void checkRealLoops(const Spec& spec, std::span<const RealLoop> real);
+
 // Measures the statistics of sector_texture.h in every third frame of real loops and of native
 // loops of at most 60 hearts, spread evenly over the dataset. For each real loop, Fisher's
 // discriminant is fitted to the other real loops and to every other heart; its area under the ROC
 // curve is that of the loop and of the remaining hearts. Loops of both kinds are read the same way:
 // pixels outside the detected sector are excluded. Runs on all threads of the enclosing
-// withThreads(). Throws SceneError if fewer than two real loops or two hearts are given, if native
-// loops are missing, or if a loop cannot be read or measured; JobError if stopped.
+// withThreads(). Throws SceneError for fewer than two hearts, or if a loop cannot be read or
+// measured; JobError if stopped. Precondition: checkRealLoops().
 RealComparison compareWithReal(const std::filesystem::path& folder, std::span<const Json> records,
                                std::span<const RealLoop> real, const Monitor& monitor);
 

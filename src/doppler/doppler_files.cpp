@@ -11,8 +11,8 @@
 #include "core/file.h"
 #include "core/folder_lock.h"
 #include "core/hash.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
-#include "core/part_file.h"
 #include "core/seal.h"
 #include "core/stop.h"
 #include "core/units.h"
@@ -102,8 +102,8 @@ void prepare(const std::filesystem::path& folder, std::optional<FolderLock>& loc
   std::error_code ignored;
   for (const char* name :
        {"doppler.json", "doppler.gif", "spectrum.exr", "spectrum.png", "spectrum.csv"}) {
+    checkOutputFile(folder / name);
     std::filesystem::remove(folder / name, ignored);
-    removePartsOf(folder / name);  // of a run that was killed here
   }
   makeFolder(folder / "velocity");
   for (const char* ending : {".exr", ".png"})

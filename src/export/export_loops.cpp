@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "core/stop.h"
 #include "echo/read_loop.h"
@@ -132,6 +133,7 @@ Exported exportWithThreads(const ExportOptions& options) {
 
 Exported exportLoops(const ExportOptions& options) {
   checkOptions(options);
+  checkOutputFile(options.output);
   Exported exported;
   withThreads(options.threads, [&] { exported = exportWithThreads(options); });
   return exported;

@@ -6,6 +6,7 @@
 
 #include "core/digest.h"
 #include "core/error.h"
+#include "core/output_check.h"
 #include "core/shown_path.h"
 #include "core/stop.h"
 #include "fit/caveats.h"
@@ -22,17 +23,20 @@ namespace fs = std::filesystem;
 
 constexpr const char* kJournal = "fit.journal";
 
-// A folder within the output that is written once; that of a stopped fit is replaced.
+// A folder within the output that is written once; that of a stopped fit is replaced. The journal
+// of a fit that was stopped or killed is continued, never removed.
 fs::path newHeart(const fs::path& folder, bool resume) {
-  const fs::path heart = folder / "heart";
+  const fs::path heart = folder / "heart", journal = folder / kJournal;
   std::error_code error;
-  if (!fs::exists(heart, error)) return heart;
-  if (!fs::exists(folder / kJournal, error))
+  if (fs::exists(journal, error)) {
+    if (!resume)
+      throw SceneError(fmt::format(
+          "{}: is of a stopped fit; give --resume (resume), remove it or give another folder",
+          journal.string()));
+    return heart;
+  }
+  if (fs::exists(heart, error))
     throw SceneError(fmt::format("{}: exists; remove it or give another folder", heart.string()));
-  if (!resume)
-    throw SceneError(fmt::format(
-        "{}: is of a stopped fit; give --resume (resume), remove it or give another folder",
-        heart.string()));
   return heart;
 }
 
@@ -125,7 +129,9 @@ heart::View clearView(const std::string& file, const ViewRanking& ranking) {
 FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& options,
                      const std::optional<fs::path>& folder, const Monitor& monitor, bool resume) {
   checkNamed(files);
+  checkFitOptions(options);
   const fs::path heart = folder ? newHeart(*folder, resume) : fs::path{};
+  if (folder) checkOutputFolder(*folder, {"fit.json", "fit.html", "curves.csv"});
   std::deque<echo::EchoLoop> read;
   std::vector<FitLoop> loops;
   std::vector<heart::View> views;
@@ -140,14 +146,8 @@ FittedFiles fitFiles(const std::vector<FitFile>& files, const HeartFitOptions& o
   }
   HeartFitOptions kept = options;
   kept.journal.reset();
-  if (folder) {
-    std::error_code error;
-    if (!resume && fs::exists(*folder / kJournal, error)) {
-      const FileLock own(*folder / FitJournal::kLock);
-      fs::remove(*folder / kJournal, error);
-    }
+  if (folder)
     kept.journal = std::make_shared<FitJournal>(*folder / kJournal, digestOf(loops, options));
-  }
   out.fit = fitHeart(loops, kept, monitor);
   out.fit.assumed.insert(out.fit.assumed.begin(), assumed.begin(), assumed.end());
   if (!folder) return out;

@@ -185,7 +185,7 @@ Json volumeJson(const HeartFit& fit) {
 }
 
 std::string fitText(const HeartFit& fit, const std::vector<std::string>& labels) {
-  return fitJson(fit, labels).dump(1) + "\n";
+  return fitJson(fit, labels).dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 
 std::vector<std::string> assumptionsOf(const HeartFit& fit) {

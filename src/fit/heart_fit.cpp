@@ -47,11 +47,7 @@ std::vector<heart::View> viewsOf(const std::vector<FitLoop>& loops) {
 
 void checkInput(const std::vector<FitLoop>& loops, const HeartFitOptions& options) {
   checkFitViews(viewsOf(loops));
-  if (options.starts < 1 || options.descents < 1)
-    throw SceneError("fit: starts and descents must be 1 or more");
-  if (options.settling_steps < 0) throw SceneError("fit: settling_steps must be 0 or more");
-  checkTilt(options.tilt_deg);
-  checkResamples(options.resamples);
+  checkFitOptions(options);
   for (const FitLoop& one : loops) checkMoves(one);
 }
 
@@ -263,6 +259,14 @@ Attempt attemptFit(const std::vector<FitLoop>& loops,
 }
 
 }  // namespace
+
+void checkFitOptions(const HeartFitOptions& options) {
+  if (options.starts < 1 || options.descents < 1)
+    throw SceneError("fit: starts and descents must be 1 or more");
+  if (options.settling_steps < 0) throw SceneError("fit: settling_steps must be 0 or more");
+  checkTilt(options.tilt_deg);
+  checkResamples(options.resamples);
+}
 
 void checkFitViews(const std::vector<heart::View>& views) {
   if (views.empty() || views.size() > kMostLoops)

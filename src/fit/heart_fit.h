@@ -124,6 +124,9 @@ struct HeartFit {
   double cpu_ms = 0;
 };
 
+// Throws SceneError for options out of range.
+void checkFitOptions(const HeartFitOptions& options);
+
 // Fits by Eq. 14: starts from the prior, then steps to the minimum of a quadratic through
 // differences of J, from the best starts. Poses, tilts and dials are estimated jointly; the start
 // and the end-systole of each loop's beat once, with the best start. Intervals: fit_interval.h.

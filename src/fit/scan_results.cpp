@@ -97,7 +97,8 @@ void writeScan(const DialScan& scan, const std::filesystem::path& folder) {
   const Json json = scanJson(scan);
   results.write("scan.csv", scanCsv(scan));
   writeScanPage(scan, json, folder / "scan.html");
-  results.write("scan.json", json.dump(1) + "\n");
+  results.write("scan.json",
+                json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace echocine::fit

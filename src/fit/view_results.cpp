@@ -100,7 +100,8 @@ void writeViews(const ViewRanking& ranking, const std::filesystem::path& folder)
   const Json json = viewsJson(ranking);
   results.write("views.csv", viewsCsv(ranking));
   writeViewsPage(ranking, json, folder / "views.html");
-  results.write("views.json", json.dump(1) + "\n");
+  results.write("views.json",
+                json.dump(1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n");
 }
 
 }  // namespace echocine::fit

@@ -24,6 +24,7 @@
 #include "motion/surfaces/motion_warnings.h"
 #include "scene/elevation_slices.h"
 #include "scene/names.h"
+#include "scene/path_length.h"
 #include "scene/role.h"
 #include "scene/scan_geometry.h"
 #include "scene/scene_keys.h"
@@ -82,13 +83,15 @@ bool invisible(const Scene& scene, const Structure& structure) {
 }
 
 void dropStructures(const Scene& scene, const MeshMotion& motion, LoopPlan& plan) {
-  Box sector = sectorBox(scene.probe, plan.effects);
+  Probe longest = scene.probe;
+  longest.max_depth_m = longestPath(scene);
+  Box sector = sectorBox(longest, plan.effects);
   if (plan.effects.elevation_slices > 1) {
     sector.lo.y -= elevationReach(scene);
     sector.hi.y += elevationReach(scene);
   }
   if (plan.effects.refraction) {  // rays may leave the imaging plane: as far as they are long
-    const double reach = scene.probe.max_depth_m;
+    const double reach = longest.max_depth_m;
     sector.add(sector.lo - Vec3d{reach, reach, reach});
     sector.add(sector.hi + Vec3d{reach, reach, reach});
   }
@@ -279,21 +282,11 @@ LoopPlan planLoop(const Scene& scene, const MeshMotion& motion, PlanWords words)
   chooseTracer(scene, plan);
   if (scene.signal.tgc == Tgc::mean && plan.effects.attenuation && wantsPicture(scene))
     plan.effects.mean_loss = meanLoss(scene, motion, plan);
-  if (plan.effects.clutter && scene.artefacts.clutter_parasternal_db != 0)
+  if (plan.effects.clutter && scene.artefacts.clutter_parasternal_db != 0 &&
+      !scene.probe.isFullTurn())  // within the chest, lines point all round
     weighClutter(scene, motion, plan.effects);
   if (warns) lookAtFrames(scene, motion, plan);
   return plan;
-}
-
-std::string planSummary(const LoopPlan& plan) {
-  std::string on, off;
-  for (const EffectDecision& d : plan.effects.decisions) {
-    if (d.effect == Effect::channel) continue;
-    std::string& list = d.on ? on : off;
-    list += (list.empty() ? "" : ", ") + d.name();
-  }
-  return fmt::format("{} tracer, {} of {} triangles met; on: {}; off: {}", plan.tracerName(),
-                     plan.triangles_met, plan.triangles_given, on, off);
 }
 
 }  // namespace echocine

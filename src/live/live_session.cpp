@@ -7,6 +7,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/output_check.h"
 #include "live/live_body.h"
 #include "live/live_page.h"
 #include "view/view_json.h"
@@ -33,13 +34,16 @@ LiveSession::LiveSession(LiveScene given, std::filesystem::path record_folder,
     dials_ = HeartDials::of(scene, live.text(), heart_truth);
   if (!record_folder_.empty() && live.isInMemory() && !dials_)
     throw SceneError("record: the meshes of this scene are in memory, which files cannot name");
+  if (!record_folder_.empty()) {
+    makeFolder(record_folder_);
+    checkOutputFile(record_folder_ / "pose");
+  }
   const Simulator& simulator = own_->renderer.prepared(scene, live.text());
   warnings_ = scene.warnings;
   warnings_.insert(warnings_.end(), simulator.plan().warnings.begin(),
                    simulator.plan().warnings.end());
   own_view_ = viewScene(simulator);
   page_ = pageOf(simulator, own_view_, live, dials_ ? &*dials_ : nullptr);
-  if (!record_folder_.empty()) makeFolder(record_folder_);
 }
 
 LiveSession::~LiveSession() = default;

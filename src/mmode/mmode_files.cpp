@@ -9,8 +9,8 @@
 #include "core/file.h"
 #include "core/folder_lock.h"
 #include "core/hash.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
-#include "core/part_file.h"
 #include "core/seal.h"
 #include "core/stop.h"
 #include "core/units.h"
@@ -119,14 +119,14 @@ MMode writeMMode(const Scene& given, const MModeOptions& options, const Monitor&
     checkMMode(simulator, options.request);
     makeFolder(options.folder);
     const FolderLock lock(options.folder);
-    std::error_code ignored;
-    // A run without a ring as target replaces the other files, but writes no ring.csv.
-    for (const char* name : {"mmode.json", "ring.csv"})
-      std::filesystem::remove(options.folder / name, ignored);
-    for (const char* name : {"mmode.json", "mmode.exr", "mmode.png", "borders.csv", "ring.csv"})
-      removePartsOf(options.folder / name);  // of a run that was killed here
+    checkOutputFolder(options.folder,
+                      {"mmode.json", "mmode.exr", "mmode.png", "borders.csv", "ring.csv"});
     mode = makeMMode(simulator, options.request, monitor);
     unstoppable([&] {
+      std::error_code ignored;
+      // A run without a ring as target replaces the other files, but writes no ring.csv.
+      for (const char* name : {"mmode.json", "ring.csv"})
+        std::filesystem::remove(options.folder / name, ignored);
       Json files;
       const auto write = [&](const char* name, std::span<const std::byte> bytes) {
         writeFileWhole(options.folder / name, bytes);

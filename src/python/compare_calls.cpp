@@ -11,6 +11,7 @@
 #include "compare/frame_discrepancy.h"
 #include "compare/results.h"
 #include "core/error.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "fit/fit_report.h"
 #include "motion/surfaces/probe_placement.h"
@@ -40,12 +41,14 @@ py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optio
   options.align_space = align_space;
   if (scene) options.scene = *scene;
   options.tilt_deg = tiltOf(tilt_deg);
+  if (folder) checkOutputFolder(*folder, {"summary.json"});
   std::string summary, frames;
   runJob(progress, [&](const Monitor& monitor) {
     withThreads(threads, [&] {
       const compare::Comparison comparison = compare::compareLoops(options, monitor);
       if (folder) compare::writeResults(comparison, options, *folder);
-      summary = compare::summaryJson(comparison).dump();
+      summary = compare::summaryJson(comparison)
+                    .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
       frames = compare::framesCsv(comparison);
     });
   });

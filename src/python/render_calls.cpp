@@ -5,6 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "core/error.h"
+#include "core/output_check.h"
 #include "motion/surfaces/probe_placement.h"
 #include "python/bindings.h"
 #include "python/job.h"
@@ -25,6 +26,7 @@ void renderToFolder(const NativeScene& scene, const std::filesystem::path& folde
                         .resume = resume,
                         .overwrite = overwrite};
   runJob(progress, [&](const Monitor& monitor) {
+    checkOutputFolder(folder, {"manifest.json"});
     AccuracyChoice choice = atOwnTolerance(placed(scene.scene), threads, monitor);
     options.accuracy = std::move(choice.record);
     const RenderSummary summary = renderLoop(choice.scene, options, monitor);

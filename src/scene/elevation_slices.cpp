@@ -4,6 +4,7 @@
 
 #include "core/check.h"
 #include "scene/beam_profile.h"
+#include "scene/path_length.h"
 #include "scene/scan_geometry.h"
 
 namespace echocine {
@@ -49,7 +50,7 @@ double elevationReach(const Scene& scene) {
   for (const ElevationNode& node : elevationNodes(scene.accuracy.elevation_slices))
     widest = std::max(widest, node.place);
   const ElevationBell bell(scene.probe);
-  return widest * std::max(bell.deviation(0), bell.deviation(scene.probe.max_depth_m));
+  return widest * std::max(bell.deviation(0), bell.deviation(longestPath(scene)));
 }
 
 }  // namespace echocine

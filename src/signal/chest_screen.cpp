@@ -44,10 +44,11 @@ double ChestScreen::mean(double left_m, double right_m) const {
   return (integral(right_m) - integral(left_m)) / (right_m - left_m);
 }
 
-double ChestScreen::factor(double start_x_m, double x_m, double z_m) const {
+double ChestScreen::factor(double start_x_m, double x_m, double z_m, double start_z_m) const {
   constexpr double kLeastWidth_m = 1e-5;  // within the wall paths still need a width
-  const double passed = std::clamp(z_m / depth_m_, 0.0, 1.0);
-  const double share = z_m > depth_m_ ? depth_m_ / z_m : 1;
+  const double way_m = z_m - start_z_m, to_screen_m = depth_m_ - start_z_m;
+  const double passed = std::clamp(way_m / to_screen_m, 0.0, 1.0);
+  const double share = z_m > depth_m_ ? to_screen_m / way_m : 1;
   const double middle_m = start_x_m * (1 - share) + x_m * share;
   const double half_m = std::max(0.5 * aperture_m_ * (1 - share), kLeastWidth_m);
   const double amplitude = mean(middle_m - half_m, middle_m + half_m);

@@ -77,8 +77,11 @@ void takeHeartRate(DcmDataset& data, Video& video) {
       video.heart_rate_bpm = bpm;
       video.heart_rate_source = fmt::format("DICOM {}", name);
     } else {
+      std::string shown(text.c_str());
+      for (char& c : shown)
+        if (c < ' ' || c > '~') c = '?';  // of any character set
       video.notes.push_back(
-          fmt::format("its {} tag says {}: not a heart rate, not used", name, text.c_str()));
+          fmt::format("its {} tag says {}: not a heart rate, not used", name, shown));
     }
   };
   take(DCM_HeartRate, "HeartRate", false);

@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
 #include "motion/cycle/cardiac_clock.h"
@@ -84,6 +85,7 @@ ViewSummary summaryOf(const SceneView& view) {
 ViewSummary writeViewPage(const Scene& given, const std::filesystem::path& path, int threads,
                           const std::function<void(const std::string&)>& warn,
                           const ViewBudget& budget) {
+  checkOutputFile(path);
   for (const std::string& warning : given.warnings) warn(warning);
   ViewSummary summary;
   withThreads(threads, [&] {

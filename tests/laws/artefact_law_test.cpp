@@ -50,7 +50,7 @@ TEST(Dropout, FallsByTheFourthPowerToItsLossAtTheEdges) {
 TEST(RibGap, OpensThePartOfTheApertureWhosePathsPass) {
   const RibGap gap{
       .aperture_m = 0.02, .width_m = 0.015, .offset_m = 0.003, .depth_m = 0.012, .shadow_db = 24};
-  for (const double start_m : {0.0, -0.01})
+  for (const auto& [start_m, start_z_m] : {std::pair(0.0, 0.0), {-0.01, 0.0}, {0.02, -0.006}})
     for (const auto& [x_m, z_m] : {std::pair(0.0, 0.05),
                                    {0.03, 0.05},
                                    {-0.02, 0.03},
@@ -61,13 +61,14 @@ TEST(RibGap, OpensThePartOfTheApertureWhosePathsPass) {
       int open = 0;
       for (int e = 0; e < kElements; ++e) {
         const double from_m = start_m + gap.aperture_m * ((e + 0.5) / kElements - 0.5);
-        const double at_m = from_m + (x_m - from_m) * gap.depth_m / z_m;
+        const double at_m = from_m + (x_m - from_m) * (gap.depth_m - start_z_m) / (z_m - start_z_m);
         if (std::abs(at_m - gap.offset_m) < gap.width_m / 2) ++open;
       }
       const double part = static_cast<double>(open) / kElements;
-      EXPECT_NEAR(gap.openPart(start_m, x_m, z_m), part, 2e-5) << x_m << " " << z_m;
+      EXPECT_NEAR(gap.openPart(start_m, x_m, z_m, start_z_m), part, 2e-5) << x_m << " " << z_m;
       const double tau = std::pow(10, -24.0 / 40);
-      EXPECT_NEAR(gap.factor(start_m, x_m, z_m), std::pow(part + (1 - part) * tau, 4), 2e-4);
+      EXPECT_NEAR(gap.factor(start_m, x_m, z_m, start_z_m), std::pow(part + (1 - part) * tau, 4),
+                  2e-4);
     }
 }
 

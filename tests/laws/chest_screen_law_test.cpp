@@ -103,6 +103,29 @@ TEST(ChestScreenLaw, FollowsPathsBehind) {
   }
 }
 
+// Lines of a curved face start behind its middle. A small aperture sees each line through one place
+// of the screen, so behind it a line's factor is constant.
+TEST(ChestScreenLaw, IsConstantAlongALineOfACurvedFace) {
+  Probe probe = sectorProbe();
+  probe.kind = ProbeKind::curvilinear;
+  probe.face_radius_m = 0.06;
+  probe.aperture_m = 1e-6;
+  const ArtefactSettings settings = patches(3, 8e-3, 5);
+  EffectPlan plan;
+  plan.shading = true;
+  const std::vector<float> factors = sectorLosses(probe, settings, plan);
+  const ChestScreen screen(probe, settings);
+  for (const int line : {0, 20, 63}) {
+    const double angle_rad = -0.6 + 1.2 * line / 63,
+                 place_m = (probe.face_radius_m + settings.shading_depth_m) * std::tan(angle_rad);
+    const double through = std::pow(screen.mean(place_m - 1e-5, place_m + 1e-5), 4);
+    for (const int sample : {80, 120, 199})
+      EXPECT_NEAR(static_cast<double>(factors[static_cast<std::size_t>(line * 200 + sample)]),
+                  through, 2e-3 * through)
+          << line << ' ' << sample;
+  }
+}
+
 TEST(ChestScreenLaw, OfNoDeviationLosesNothingAndSeedsDiffer) {
   const Probe probe = sectorProbe();
   EXPECT_NEAR(ChestScreen(probe, patches(0, 8e-3, 1)).factor(0, 0.02, 0.1), 1, 1e-12);

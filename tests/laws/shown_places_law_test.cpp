@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "frame/simulator.h"
+#include "plan/loop_plan.h"
 #include "support/scene_text.h"
 
 namespace echocine::shown_places_law {
@@ -39,6 +40,36 @@ TEST(ShownPlacesLaw, AMembranesContourIsOpen) {
   for (const Vec3d p : contours[0].points_m) {
     const Vec3d there = (1584.0 / 1540) * p;
     EXPECT_NEAR(there.z, 0.08 + (there.x + 0.03) * 30 / 70, 0.02e-3);
+  }
+}
+
+// Sound that is faster than 1540 m/s shows what lies deeper than the picture.
+TEST(ShownPlacesLaw, ASheetBehindTheDepthIsShownWhereSoundIsFast) {
+  for (const bool shown : {false, true}) {
+    SceneText text;
+    text.motion = {{"mesh_unit", "\"mm\""}};
+    text.probe["depth_mm"] = "150";
+    text.effects["travel_time"] = shown ? "\"on\"" : "\"off\"";
+    text.effects["refraction"] = "\"off\"";
+    text.structures =
+        "[[structure]]\nname = \"sheet\"\nmedium = \"valve\"\nmembrane = true\nkeyframes = "
+        "\"sheet\"\n";
+    const Mesh sheet{{{-30, -20, 152}, {40, -20, 152}, {40, 20, 152}, {-30, 20, 152}},
+                     {{0, 1, 2}, {0, 2, 3}}};
+    const Simulator simulator(parseScene(text.text(), "in memory", {{"sheet", shared(sheet)}}));
+    EXPECT_EQ(simulator.plan().left_out[0], !shown);
+    const Intensities made = simulator.frame(0).intensities;
+    const Probe& probe = simulator.scene().probe;
+    const double place = 152e-3 * 1540 / 1584;  // along the middle line
+    double echo = 0, before = 0;
+    for (int k = 0; k < probe.samples; ++k) {
+      const double depth_m = probe.min_depth_m + (k + 0.5) * probe.sampleSpacing();
+      const auto grey =
+          static_cast<double>(made[static_cast<std::size_t>(probe.lines / 2 * probe.samples + k)]);
+      if (std::abs(depth_m - place) < 1.5e-3) echo = std::max(echo, grey);
+      if (std::abs(depth_m - place + 10e-3) < 1.5e-3) before = std::max(before, grey);
+    }
+    EXPECT_EQ(echo > 2 * before, shown) << echo << ' ' << before;
   }
 }
 

@@ -2,6 +2,9 @@
 
 #include "motion/surfaces/motion_warnings.h"
 
+#include <fmt/format.h>
+
+#include "motion/cycle/cardiac_clock.h"
 #include "tests/stage/motion_fixtures.h"
 
 namespace echocine::motion_test {
@@ -37,6 +40,20 @@ TEST(MotionWarnings, MirroredTriangleIsNamedWithStructureFrameFaceAndFiles) {
       "scene.toml:7: structure.keyframes: ball: frame 12: " + folder.path("ball_1.obj").string() +
           ": face 1 turns over between this file and " + folder.path("ball_2.obj").string() +
           "; it is folded in one of the two: correct one of the two files");
+}
+
+// The frames are those of the loop, whose clock may warp the keyframes' beat.
+TEST(MotionWarnings, FramesAreThoseOfAWarpedBeat) {
+  const TestFolder folder;
+  Scene scene = slipScene(folder, {0, 0, 2.2, 2.2}, Interpolation::linear);
+  scene.acquisition = {.heart_rate_hz = 2, .frame_rate_hz = 50, .beats = 1};
+  scene.motion.keyframe_heart_rate_hz = 1;
+  const CardiacClock clock(scene);
+  int first = 0;
+  while (clock.at(first).phase < 0.25 * (1 + 1.8477590650225735 / 2.2)) ++first;
+  EXPECT_GT(first, 13);  // 12 without a warp
+  const std::string named = fmt::format("frame {}: ", first), warning = onlyWarning(scene);
+  EXPECT_NE(warning.find(named), std::string::npos) << named << warning;
 }
 
 TEST(MotionWarnings, FurtherFacesAreCounted) {
