@@ -134,7 +134,7 @@ void checkRealLoops(const Spec& spec, std::span<const RealLoop> real) {
 
 RealComparison compareWithReal(const std::filesystem::path& folder, std::span<const Json> records,
                                std::span<const RealLoop> real, const Monitor& monitor) {
-  CHECK(real.size() >= 2);
+  CHECK_LE(std::size_t{2}, real.size());
   if (records.size() < 2)
     throw SceneError("--real: the dataset has fewer than two hearts, accepted: two or more");
   const std::vector<FeatureRows> of_real = measuredLoops(real, monitor);
