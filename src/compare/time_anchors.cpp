@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.h"
 #include "echo/r_wave_beats.h"
@@ -66,19 +67,35 @@ std::vector<Anchor> byMarks(const Cardinal& s, const Cardinal& r, double beat,
   return anchors;
 }
 
-// Empty where either side knows no R wave. Phase 0 of a render is its R wave.
+// Places where the beats of a render begin, the first at or before its first frame: phase 0 is an R
+// wave. Beats may differ in length.
+std::vector<double> beginsOf(const std::vector<double>& phases, double beat) {
+  std::vector<double> begins;
+  for (std::size_t i = 0; i + 1 < phases.size(); ++i) {
+    const double turn = phases[i + 1] - phases[i], step = turn - std::floor(turn);
+    if (begins.empty()) begins.push_back(step > 0 ? -phases[i] / step : 0);
+    if (turn < 0) begins.push_back(static_cast<double>(i) + (1 - phases[i]) / step);
+  }
+  if (begins.empty()) begins.push_back(-phases.front() * beat);
+  return begins;
+}
+
+// Empty where either side knows no R wave.
 std::vector<Anchor> byRWaves(double synthetic_beat, double real_beat,
                              const echo::EchoLoop& synthetic, const echo::EchoLoop& real) {
   const std::vector<double> waves = real.rWaveFrames(), own = synthetic.rWaveFrames();
   std::vector<Anchor> anchors;
   if (waves.empty() || (synthetic.phases.empty() && own.empty()) || !(synthetic_beat > 0))
     return anchors;
-  const double at_r =
-      synthetic.phases.empty() ? own.front() : -synthetic.phases.front() * synthetic_beat;
+  const std::vector<double> begins = synthetic.phases.empty()
+                                         ? std::vector<double>{own.front()}
+                                         : beginsOf(synthetic.phases, synthetic_beat);
   double beats = 0;
   for (std::size_t i = 0; i < waves.size(); ++i) {
     if (i > 0) beats += echo::beatsBetween(waves[i] - waves[i - 1], real_beat);
-    anchors.push_back({waves[i], at_r + beats * synthetic_beat});
+    const auto whole = std::min(static_cast<std::size_t>(beats), begins.size() - 1);
+    anchors.push_back(
+        {waves[i], begins[whole] + (beats - static_cast<double>(whole)) * synthetic_beat});
   }
   return anchors;
 }

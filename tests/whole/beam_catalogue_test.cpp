@@ -78,7 +78,9 @@ TEST(BeamCatalogue, NamesOfZeaAreCheckedBeforeTheRender) {
 TEST(BeamCatalogue, AnArchiveWarnsAsARender) {
   const TempFolder folder;
   SceneText text = ballScene(4);
-  text.probe["depth_mm"] = "400";
+  text.structures.replace(text.structures.find("name = \"wall\""), 13,
+                          "name = \"wall\"\nrole = \"lv_wall\"");
+  text.addStructure("beside", "blood", "\"cavity_0.obj\"", 3, "role = \"rv_cavity\"");
   writeBall(folder, text);
   const std::string scene = " '" + (folder / "scene.toml").string() + "'";
   const auto warnings = [&](const std::string& command) {
