@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <atomic>
@@ -31,6 +32,15 @@ bool areHexDigits(std::string_view text) {
   return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
 }
 
+// By a writer that is still at work.
+bool isHeld(const std::filesystem::path& part) {
+  const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  ::close(descriptor);
+  return held;
+}
+
 }  // namespace
 
 PartFile makePart(const std::filesystem::path& path) {
@@ -42,6 +52,8 @@ PartFile makePart(const std::filesystem::path& path) {
         ::open(part.name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
     if (part.descriptor >= 0 || errno != EEXIST) break;
   }
+  // A file system without locks leaves it unlocked.
+  if (part.descriptor >= 0) ::flock(part.descriptor, LOCK_EX | LOCK_NB);
   return part;
 }
 
@@ -63,7 +75,8 @@ void removePartsOf(const std::filesystem::path& path) {
   std::error_code failed;
   for (std::filesystem::directory_iterator it(folder, failed), end; it != end; it.increment(failed))
     if (targetOfPart(it->path().filename().string()) == target) parts.push_back(it->path());
-  for (const std::filesystem::path& part : parts) std::filesystem::remove(part, failed);
+  for (const std::filesystem::path& part : parts)
+    if (!isHeld(part)) std::filesystem::remove(part, failed);
 }
 
 }  // namespace echocine

@@ -9,8 +9,8 @@
 namespace echocine {
 
 // A new, empty part of `path`, open for reading and writing. Never an existing file and never
-// through a link (O_EXCL), so writers of one target do not share a part. descriptor < 0, with
-// errno, on failure.
+// through a link (O_EXCL), so writers of one target do not share a part. It is locked while the
+// descriptor is open. descriptor < 0, with errno, on failure.
 struct PartFile {
   std::string name;
   int descriptor = -1;
@@ -21,7 +21,8 @@ PartFile makePart(const std::filesystem::path& path);
 // for any other name.
 std::string_view targetOfPart(std::string_view file_name);
 
-// Removes parts of this file left by killed runs. Files that cannot be removed stay.
+// Removes parts of this file left by killed runs. Parts that a writer holds open stay, and files
+// that cannot be removed.
 void removePartsOf(const std::filesystem::path& path);
 
 }  // namespace echocine
