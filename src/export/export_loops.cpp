@@ -131,9 +131,13 @@ Exported exportWithThreads(const ExportOptions& options) {
 
 }  // namespace
 
-Exported exportLoops(const ExportOptions& options) {
+void checkExport(const ExportOptions& options) {
   checkOptions(options);
   checkOutputFile(options.output);
+}
+
+Exported exportLoops(const ExportOptions& options) {
+  checkExport(options);
   Exported exported;
   withThreads(options.threads, [&] { exported = exportWithThreads(options); });
   return exported;

@@ -39,6 +39,10 @@ struct Exported {
   std::vector<std::string> notes;  // what differs from the loops as acquired
 };
 
+// Throws SceneError for invalid options, and JobError if the output cannot be written. Reads no
+// loop.
+void checkExport(const ExportOptions& options);
+
 // Replaces an existing file. Pictures of a finished render are shown whole; other videos show the
 // sector only, because text beside it may name a patient. Throws SceneError for invalid options or
 // loops, JobError for a failed write.

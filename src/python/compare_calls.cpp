@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <tuple>
 
 #include "compare/compare.h"
 #include "compare/frame_discrepancy.h"
@@ -29,20 +30,26 @@ namespace {
 
 using Path = std::filesystem::path;
 
+// align_space, monotone, contours, knots, knot_count, band_mm.
+using CompareDetails = std::tuple<bool, bool, bool, std::vector<double>, int, double>;
+
+// only_check: arguments and place of the results, before a loop is rendered for it.
 py::tuple compareFiles(const Path& synthetic, const Path& real, const std::optional<Path>& folder,
-                       const py::dict& real_side, const py::dict& synthetic_side, bool align_space,
-                       const std::optional<Path>& scene, double tilt_deg, int threads,
-                       const py::object& progress) {
+                       const py::dict& real_side, const py::dict& synthetic_side,
+                       const CompareDetails& details, const std::optional<Path>& scene,
+                       double tilt_deg, int threads, bool only_check, const py::object& progress) {
   compare::CompareOptions options;
   options.synthetic = synthetic;
   options.real = real;
   options.real_side = sideOf(real_side, "real");
   options.synthetic_side = sideOf(synthetic_side, "synthetic");
-  options.align_space = align_space;
+  std::tie(options.align_space, options.monotone, options.contours, options.knots,
+           options.knot_count, options.band_mm) = details;
   if (scene) options.scene = *scene;
   options.tilt_deg = tiltOf(tilt_deg);
   if (folder) checkOutputFolder(*folder, {"summary.json"});
   std::string summary, frames;
+  if (only_check) return py::make_tuple(summary, frames);
   runJob(progress, [&](const Monitor& monitor) {
     withThreads(threads, [&] {
       const compare::Comparison comparison = compare::compareLoops(options, monitor);
@@ -108,8 +115,8 @@ double distance(const Distance& d, int frame, const py::array_t<float>& greys) {
 void bindCompare(py::module_& module) {
   module.def("compare", &compareFiles, py::arg("synthetic"), py::arg("real"),
              py::arg("folder").none(true), py::arg("real_side"), py::arg("synthetic_side"),
-             py::arg("align_space"), py::arg("scene").none(true), py::arg("tilt_deg"),
-             py::arg("threads"), py::arg("progress").none(true),
+             py::arg("details"), py::arg("scene").none(true), py::arg("tilt_deg"),
+             py::arg("threads"), py::arg("only_check"), py::arg("progress").none(true),
              "summary.json and frames.csv as texts.");
   py::class_<Distance, std::shared_ptr<Distance>>(module, "FrameDiscrepancy",
                                                   "Distance of frames to a real loop.")

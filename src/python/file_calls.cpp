@@ -90,11 +90,12 @@ std::pair<std::uint64_t, std::string> fileDigest(const Path& path) {
   return {mark->bytes, mark->digest};
 }
 
-// (codec, width, height, frames, frame_rate_hz)
+// (codec, width, height, frames, frame_rate_hz); only_check: of nothing, before loops are rendered
+// for it.
 py::tuple exportTo(const std::vector<Path>& loops, const Path& output,
                    const std::vector<std::string>& captions, int columns, int width, int repeats,
                    double speed, std::optional<double> fps, const std::string& tint, int threads,
-                   const py::object& progress) {
+                   bool only_check, const py::object& progress) {
   ExportOptions options{loops, output, captions, columns, width, repeats, speed, fps};
   options.threads = threads;
   const std::optional<Tint> known = valueOf<Tint>(tint);
@@ -102,6 +103,7 @@ py::tuple exportTo(const std::vector<Path>& loops, const Path& output,
   options.tint = *known;
   Exported exported;
   runJob(progress, [&](const Monitor& monitor) {
+    if (only_check) return checkExport(options);
     exported = exportLoops(options);
     for (const std::string& note : exported.notes) monitor.warn(note);
   });
@@ -117,8 +119,8 @@ void bindFiles(py::module_& module) {
              "One channel of an intensity EXR, (depth, line) float32 or uint32.");
   module.def("export_loops", &exportTo, py::arg("loops"), py::arg("output"), py::arg("captions"),
              py::arg("columns"), py::arg("width"), py::arg("repeats"), py::arg("speed"),
-             py::arg("fps"), py::arg("tint"), py::arg("threads"), py::arg("progress"),
-             "Loops as MP4, GIF or WebP.");
+             py::arg("fps"), py::arg("tint"), py::arg("threads"), py::arg("only_check"),
+             py::arg("progress"), "Loops as MP4, GIF or WebP.");
   module.def("file_digest", &fileDigest, py::arg("path"), "(bytes, digest) of a file.");
   module.def("read_video", &readFrames, py::arg("path"), "(T, H, W) uint8 greys of a video.");
 }

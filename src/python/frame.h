@@ -20,8 +20,11 @@ struct NativeFrame {
   std::atomic<bool> busy{false};  // being filled
 };
 
-// Copies into `to`'s own memory. Contours are new. Precondition: both are of one simulator.
+// Copies planes into `to`'s own memory. Precondition: both are of one simulator.
 void copyInPlace(const Frame& from, Frame& to);
+// The rest, whose memory is new. The caller holds the interpreter's lock, because other threads may
+// read it.
+void moveRest(Frame& from, Frame& to);
 
 // Output arrays by name: "intensities", "greys", "image", "labels". Throws like checkedOut(), and
 // ValueError for other names and for outputs that the scene does not have.

@@ -30,8 +30,6 @@ void copyTruth(const FrameTruth& from, FrameTruth& to) {
   }
   copyPlane(from.motion.beam_m_s, to.motion.beam_m_s);
   copyPlane(from.tracks_m, to.tracks_m);
-  to.contours = from.contours;
-  to.function = from.function;
 }
 
 template <typename T>
@@ -66,14 +64,20 @@ bool isMade(const std::string& name, const Scene& scene) {
 }  // namespace
 
 void copyInPlace(const Frame& from, Frame& to) {
-  to.time = from.time;
-  to.volumes_ml = from.volumes_ml;
   copyPlane(from.intensities.values, to.intensities.values);
   copyPlane(from.greys.values, to.greys.values);
   copyPlane(from.image.pixels, to.image.pixels);
   for (const auto& [channel, values] : from.channels) copyPlane(values, to.channels[channel]);
   copyPlane(from.medium, to.medium);
   if (from.truth) copyTruth(*from.truth, *to.truth);
+}
+
+void moveRest(Frame& from, Frame& to) {
+  to.time = from.time;
+  to.volumes_ml = std::move(from.volumes_ml);
+  if (!from.truth) return;
+  to.truth->contours = std::move(from.truth->contours);
+  to.truth->function = std::move(from.truth->function);
 }
 
 std::vector<OutArray> checkedOutArrays(const py::dict& given, const Scene& scene) {

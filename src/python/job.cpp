@@ -174,8 +174,12 @@ void runJob(const py::object& progress, const std::function<void(const Monitor&)
     ::pthread_join(thread, nullptr);
   }
   if (raised) throw py::error_already_set(*raised);
-  if (job.error) std::rethrow_exception(job.error);
-  issueWarnings(job.warnings);
+  if (!job.error) return issueWarnings(job.warnings);
+  try {
+    issueWarnings(job.warnings);
+  } catch (const py::error_already_set&) {  // a filter that makes errors of warnings
+  }
+  std::rethrow_exception(job.error);
 }
 
 }  // namespace echocine::python

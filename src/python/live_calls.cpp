@@ -4,12 +4,14 @@
 #include <pybind11/stl/filesystem.h>
 
 #include <atomic>
+#include <chrono>
 #include <exception>
 #include <future>
 #include <thread>
 
 #include "live/live.h"
 #include "python/bindings.h"
+#include "python/fork_guard.h"
 #include "python/meshes.h"
 #include "python/unlocked.h"
 
@@ -39,17 +41,17 @@ class LiveServer {
     std::promise<std::string> listening;
     std::future<std::string> heard = listening.get_future();
     thread_ = std::thread([this, options, &listening] { serve(options, listening); });
-    std::exception_ptr error;
-    {
-      const Unlocked released;
-      try {
-        link_ = heard.get();
-      } catch (...) {
-        error = std::current_exception();
-        thread_.join();
+    while (!waitFor(heard))
+      if (PyErr_CheckSignals() != 0) {
+        close();
+        throw py::error_already_set();
       }
+    try {
+      link_ = heard.get();
+    } catch (...) {
+      close();
+      throw;
     }
-    if (error) std::rethrow_exception(error);
   }
   ~LiveServer() { close(); }
 
@@ -65,6 +67,12 @@ class LiveServer {
   }
 
  private:
+  // Without the interpreter's lock; false after a while.
+  static bool waitFor(const std::future<std::string>& heard) {
+    const Unlocked released;
+    return heard.wait_for(std::chrono::milliseconds(50)) == std::future_status::ready;
+  }
+
   // `listening` lives until it has its value.
   void serve(const live::LiveOptions& options, std::promise<std::string>& listening) {
     bool listens = false;

@@ -75,9 +75,29 @@ py::dict arrays(const py::object& self) {
   return named;
 }
 
+// Components of motion that the scene's channels request: lateral, axial, elevation.
+void addMotion(const Loop& loop, const py::object& self, py::dict& named) {
+  const py::ssize_t samples = loop.samples, lines = loop.lines, plane = samples * lines;
+  constexpr auto kItem = static_cast<py::ssize_t>(sizeof(float));
+  for (const auto& [first, values] :
+       {std::pair(Channel::displacement_lateral, &loop.displacement_mm),
+        std::pair(Channel::velocity_lateral, &loop.velocity_mm_s)})
+    for (int side = 0; side < 3; ++side) {
+      const auto channel = static_cast<Channel>(static_cast<int>(first) + side);
+      if (!values->empty() && wants(loop.scene, channel))
+        named[channelName(channel)] = py::array(
+            py::dtype::of<float>(), {py::ssize_t{loop.frames}, samples, lines},
+            {3 * plane * kItem, kItem, samples * kItem}, values->data() + side * plane, self);
+    }
+  if (!loop.velocity_beam_m_s.empty() && wants(loop.scene, Channel::velocity_beam))
+    named[channelName(Channel::velocity_beam)] =
+        planesView(loop.velocity_beam_m_s.data(), loop.frames, lines, samples, self);
+}
+
 py::dict channels(const py::object& self) {
   const Loop& loop = self.cast<const Loop&>();
   py::dict named;
+  addMotion(loop, self, named);
   for (const auto& [channel, values] : loop.planes)
     named[channelName(channel)] =
         planesView(values.data(), loop.frames, loop.lines, loop.samples, self);

@@ -65,11 +65,12 @@ void checkMaker(const char* argument, const NativeSimulator& simulator, const Na
 void fillFrame(NativeSimulator& simulator, double time_s, NativeFrame& out) {
   checkMaker("out", simulator, out);
   const Busy busy(out);
+  Scratch scratch(simulator);
   runHere([&] {
-    Scratch scratch(simulator);
     simulator.simulator.frame(time_s, *scratch.frame);
     copyInPlace(*scratch.frame, out.frame);
   });
+  moveRest(*scratch.frame, out.frame);
 }
 
 void fillArrays(NativeSimulator& simulator, double time_s, const py::dict& out) {
@@ -83,8 +84,12 @@ void fillArrays(NativeSimulator& simulator, double time_s, const py::dict& out) 
 
 std::shared_ptr<NativeSimulator> make(const NativeScene& scene) {
   std::shared_ptr<NativeSimulator> made;
-  runJob(py::none(),
-         [&](const Monitor&) { made = std::make_shared<NativeSimulator>(scene.scene); });
+  runJob(py::none(), [&](const Monitor& monitor) {
+    made = std::make_shared<NativeSimulator>(scene.scene);
+    passWarnings(made->simulator, monitor);
+    if (scene.scene.accuracy.tolerance_db)
+      monitor.warn("accuracy.tolerance_db: is not used by a simulator, but by render and plan");
+  });
   return made;
 }
 

@@ -14,15 +14,23 @@ echo::SideOptions sideOf(const py::dict& given, const char* argument) {
   for (const auto& [key, given_value] : given) {
     const auto name = py::str(key).cast<std::string>();
     const py::handle value = given_value;
+    const bool is_bool = py::isinstance<py::bool_>(value);
+    const auto refuse = [&](const char* accepted) {
+      throw py::value_error(fmt::format("{}: {}: is {}, accepted: {}", argument, name,
+                                        py::repr(value).cast<std::string>(), accepted));
+    };
     const auto as = [&]<typename T>(T, const char* accepted) {
       try {
         return value.cast<T>();
       } catch (const py::cast_error&) {
-        throw py::value_error(fmt::format("{}: {}: is {}, accepted: {}", argument, name,
-                                          py::repr(value).cast<std::string>(), accepted));
+        refuse(accepted);
+        throw;
       }
     };
-    const auto number = [&] { return as(double{}, "a number"); };
+    const auto number = [&] {
+      if (is_bool) refuse("a number");
+      return as(double{}, "a number");
+    };
     if (name == "fps")
       side.fps = number();
     else if (name == "mm_per_pixel")
@@ -41,6 +49,8 @@ echo::SideOptions sideOf(const py::dict& given, const char* argument) {
       side.r_waves_s = as(std::vector<double>{}, "a list of numbers");
     else if (name == "label")
       side.label = as(std::string{}, "text");
+    else if (name == "read_ecg" && value.is_none())
+      refuse("True or False");
     else if (name == "read_ecg")
       side.read_ecg = as(bool{}, "True or False");
     else

@@ -162,3 +162,9 @@ def test_a_frame_of_another_simulator_is_refused_whatever_its_shape(scene):
         other.frame(0, out=frame)
     with pytest.raises(ValueError, match="another simulator"):
         other.contours(frame)
+
+
+def test_a_simulator_says_what_it_does_not_use(scene):
+    scene["accuracy.tolerance_db"] = 3.0
+    with pytest.warns(echocine.SceneWarning, match="tolerance_db"):
+        echocine.Simulator(scene)

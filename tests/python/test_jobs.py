@@ -1,5 +1,6 @@
 """Progress, stops, plans, studies and comparisons."""
 
+import importlib
 import json
 import os
 import signal
@@ -189,3 +190,36 @@ def test_loops_become_a_file_for_slides(scene, tmp_path):
     with pytest.raises(echocine.SceneError, match="tint"):
         echocine.export(loop, tmp_path / "loop.mp4", tint="green")
     assert sorted(p.name for p in tmp_path.iterdir()) == ["one.mp4", "pair.gif"]
+
+
+def test_arguments_are_checked_before_a_loop_is_rendered(tmp_path, monkeypatch):
+    loop = echocine.render(ball_scene())
+    monkeypatch.setattr(importlib.import_module("echocine._jobs"), "render", lambda *a, **k: pytest.fail("rendered"))
+    (tmp_path / "file").write_text("")
+    (tmp_path / "real.avi").write_text("")
+    for call, error, words in (
+            (lambda: echocine.compare(loop, tmp_path / "none.avi"), echocine.SceneError, "none.avi: no such file"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", tmp_path / "file"), echocine.JobError, "is a file"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", real_side={"fbs": 1}), ValueError, "fbs"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", tilt_deg=30), ValueError, "tilt_deg"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", knots=[3]), ValueError, "knots"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", contours=True), ValueError, "contours"),
+            (lambda: echocine.compare(loop, tmp_path / "real.avi", align_space=None), ValueError, "align_space"),
+            (lambda: echocine.export(loop, tmp_path / "x.txt"), echocine.SceneError, "extension"),
+            (lambda: echocine.export(loop, tmp_path / "x.gif", captions="A"), TypeError, "captions"),
+            (lambda: echocine.export(loop, tmp_path / "none" / "x.gif"), echocine.JobError, "x.gif")):
+        with pytest.raises(error, match=words):
+            call()
+
+
+def test_numbers_of_numpy_and_single_texts(scene):
+    assert echocine.plan(scene, threads=np.int64(1)).frames == scene.frame_count
+    with pytest.raises(ValueError, match="threads"):
+        echocine.plan(scene, threads=np.bool_(True))
+    with pytest.raises(TypeError, match="knobs: is one text"):
+        echocine.study(scene, knobs="lines")
+    for budget_s in (float("nan"), 0, -1):
+        with pytest.raises(ValueError, match="budget_s"):
+            echocine.study(scene, budget_s=budget_s)
+    with pytest.raises(ValueError, match="dials: ef"):
+        echocine.HeartPrior().log_density(ef="0.5")

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 import echocine
+from conftest import ball_scene
 
 
 @pytest.fixture(scope="module")
@@ -291,3 +292,16 @@ def test_no_flipped_bit_is_believed(pair, tmp_path):
         file.write_bytes(whole)
     print(f"{refused} of {flips} flips refused")
     assert refused > flips // 2
+
+
+def test_motion_channels_in_memory_are_those_of_files(tmp_path):
+    scene = ball_scene(**{"output.channels": ["Y", "displacement.axial", "velocity.beam"]})
+    memory, files = echocine.render(scene), echocine.render(scene, tmp_path / "loop")
+    for name in ("displacement.axial", "velocity.beam"):
+        assert np.array_equal(memory.channel(name), files.channel(name), equal_nan=True)
+    assert np.nanmax(np.abs(memory.channel("displacement.axial"))) > 0
+    with pytest.raises(ValueError, match="displacement.lateral"):
+        memory.channel("displacement.lateral")
+    scene["output.exr"] = False
+    with pytest.raises(echocine.SceneError, match="output.exr"):
+        echocine.render(scene, truth="displacement")

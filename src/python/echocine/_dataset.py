@@ -268,7 +268,7 @@ def _spec(spec: Spec) -> Tuple[Optional[str], Path]:
 
 
 def _pixel_mm(loop: PathLike, mm: Any) -> float:
-    if isinstance(mm, bool) or not isinstance(mm, (int, float)) or not 0.01 <= mm <= 10:
+    if isinstance(mm, (bool, np.bool_)) or not isinstance(mm, (int, float, np.number)) or not 0.01 <= mm <= 10:
         raise ValueError(f"real: {loop} has {mm!r}, accepted: 0.01 to 10 mm per pixel")
     return float(mm)
 

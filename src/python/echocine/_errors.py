@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import operator
 import re
-from typing import Any, Optional
+from typing import Any, List, Optional
+
+import numpy as np
 
 _PLACE = re.compile(r"(?P<file>[^\n]+?):(?P<line>\d+): (?:(?P<key>[A-Za-z_][\w.\-]*): )?")
 _KEY = re.compile(r"(?P<key>[a-z_]+\.[\w.\-]*): ")
@@ -51,9 +54,26 @@ class SceneWarning(UserWarning):
 
 
 def whole_number(name: str, value: Any, least: int, most: int) -> int:
-    if not isinstance(value, int) or isinstance(value, bool) or not least <= value <= most:
+    """Python's or NumPy's; no truth value."""
+    try:
+        number = operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or isinstance(value, (bool, np.bool_)) or not least <= number <= most:
         raise ValueError(f"{name}: is {value!r}, accepted: a whole number from {least} to {most}")
-    return value
+    return number
+
+
+def flag(name: str, value: Any) -> bool:
+    if not isinstance(value, (bool, np.bool_)):
+        raise ValueError(f"{name}: is {value!r}, accepted: True or False")
+    return bool(value)
+
+
+def texts(name: str, value: Any) -> List[str]:
+    if isinstance(value, (str, bytes)):
+        raise TypeError(f"{name}: is one text, accepted: a list of texts")
+    return list(value)
 
 
 def thread_count(threads: Any) -> int:

@@ -24,6 +24,8 @@ def _numbers(argument: str, given: Any) -> NDArray[np.float64]:
 
 def _number(argument: str, given: Any) -> float:
     try:
+        if isinstance(given, (str, bytes, bool, np.bool_)):
+            raise TypeError
         return float(given)
     except (TypeError, ValueError):
         raise ValueError(f"{argument}: is {given!r}, accepted: a number") from None

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._errors import thread_count
+from ._errors import flag, texts, thread_count
 from ._fit import _cache_folder, _dashed, _number, _underscored
 from ._jobs import PathLike
 from ._progress import Progress, report_to
@@ -119,9 +119,9 @@ def fit(loops: Loops, folder: Optional[PathLike] = None, *, side: Sides = None,
     """
     given = _given(loops, side)
     fixed = _dashed(dials)
-    keys = None if searched is None else [str(name).replace("_", "-") for name in searched]
+    keys = None if searched is None else [str(name).replace("_", "-") for name in texts("searched", searched)]
     text, curves, found = _echocine.fit(given, None if folder is None else Path(folder), fixed, keys, tilt_deg, starts, descents,
-                                        own_look, own_loops, resamples, _cache_folder(cache), resume, thread_count(threads), report_to(progress))
+                                        own_look, flag("own_loops", own_loops), resamples, _cache_folder(cache), flag("resume", resume), thread_count(threads), report_to(progress))
     return HeartFit(json.loads(text), curves, found)
 
 

@@ -8,13 +8,13 @@ import json
 import os
 import tempfile
 from pathlib import Path
-from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Dict, List, Mapping, NamedTuple, Optional, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._errors import thread_count
+from ._errors import SceneError, flag, texts, thread_count, whole_number
 from ._loop import Loop, render
 from ._progress import Progress, report_to
 from ._scene import Scene
@@ -88,9 +88,11 @@ def study(scene: Scene, folder: Optional[PathLike] = None, *, frames: int = 4, r
     for name, value in (("frames", frames), ("repeats", repeats)):
         if not 1 <= value <= 1000:
             raise ValueError(f"{name}: is {value}, accepted: 1 to 1000")
+    if budget_s is not None and not 1e-3 <= budget_s <= 1e9:
+        raise ValueError(f"budget_s: is {budget_s}, accepted: 0.001 to 1e9")
     path = None if folder is None else Path(folder)
     result: Dict[str, Any] = json.loads(
-        _echocine.study(_scene(scene), path, frames, repeats, list(knobs), budget_s, thread_count(threads), report_to(progress)))
+        _echocine.study(_scene(scene), path, frames, repeats, texts("knobs", knobs), budget_s, thread_count(threads), report_to(progress)))
     return result
 
 
@@ -120,7 +122,8 @@ def _number(text: str) -> Any:
 
 def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[PathLike] = None, *,
             real_side: Optional[Mapping[str, Any]] = None, synthetic_side: Optional[Mapping[str, Any]] = None,
-            align_space: bool = True, scene: Optional[PathLike] = None, tilt_deg: float = 0, threads: int = 0,
+            align_space: bool = True, scene: Optional[PathLike] = None, tilt_deg: float = 0, monotone: bool = False,
+            knots: Sequence[float] = (), knot_count: int = 8, band_mm: float = 4, contours: bool = False, threads: int = 0,
             progress: Progress = None) -> Comparison:
     """Compares a loop with an echo video, frame by frame, as ``echocine compare`` does.
 
@@ -135,15 +138,34 @@ def compare(synthetic: Union[Loop, PathLike], real: PathLike, folder: Optional[P
         scene: file of the scene of the render: metrics in bands around its boundaries.
         tilt_deg: by which the scene's plane may be tilted and rotated to where it fits best, either way, 0 to 20;
             ``summary["scene_fit"]["tilt"]`` tells it.
+        monotone: the grey calibration is monotone.
+        knots: synthetic grey levels of its knots, 0 to 255; without them, knot_count of them (2 to 64) are chosen.
+        band_mm: full width of the bands around the scene's boundaries, 0.1 to 100.
+        contours: draws the scene's contours into the pictures.
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
     """
     thread_count(threads)
+    levels = [float(level) for level in knots]
+    if len(levels) == 1 or any(not 0 <= level <= 255 for level in levels) or any(b <= a for a, b in zip(levels, levels[1:])):
+        raise ValueError(f"knots: is {levels}, accepted: two or more ascending grey levels, 0 to 255")
+    if not 0.1 <= band_mm <= 100:
+        raise ValueError(f"band_mm: is {band_mm}, accepted: 0.1 to 100")
+    if contours and scene is None:
+        raise ValueError("contours: needs scene, accepted: the file of the scene of the render")
+    if not Path(real).exists():
+        raise SceneError(f"{real}: no such file")
+    details = (flag("align_space", align_space), flag("monotone", monotone), flag("contours", contours), levels,
+               whole_number("knot_count", knot_count, 2, 64), float(band_mm))
+
+    def compared(source: Path, only_check: bool) -> Tuple[str, str]:
+        return _echocine.compare(source, Path(real), None if folder is None else Path(folder), dict(real_side or {}),
+                                 dict(synthetic_side or {}), details, None if scene is None else Path(scene), tilt_deg, threads,
+                                 only_check, report_to(progress))
+
     with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
-        source = _as_files(synthetic, Path(spare) / "loop", threads)
-        summary, frames = _echocine.compare(source, Path(real), None if folder is None else Path(folder), dict(real_side or {}),
-                                            dict(synthetic_side or {}), align_space, None if scene is None else Path(scene), tilt_deg,
-                                            threads, report_to(progress))
+        compared(Path(spare), True)  # before a loop is rendered
+        summary, frames = compared(_as_files(synthetic, Path(spare) / "loop", threads), False)
     rows = [{k: _number(v) for k, v in row.items()} for row in csv.DictReader(io.StringIO(frames))]
     return Comparison(json.loads(summary), rows)
 
@@ -156,7 +178,7 @@ def _as_files(loop: Union[Loop, PathLike], spare: Path, threads: int) -> Path:
     if loop.scene is None:
         raise ValueError("synthetic: the loop has no scene, accepted: a loop of render or a folder")
     lossless = loop.scene.copy()
-    lossless.update({"output.codec": "ffv1", "output.exr": True, "output.report": False,
+    lossless.update({"output.codec": "ffv1", "output.exr": True, "output.report": False, "output.png": False, "output.dicom": False,
                      "output.channels": sorted({*lossless["output.channels"], "display.Y"})})
     render(lossless, spare, frames=loop._frames, threads=threads)
     return spare
@@ -199,10 +221,16 @@ def export(loops: Union[Loop, PathLike, Sequence[Union[Loop, PathLike]]], output
     """
     given = [loops] if isinstance(loops, (Loop, str, os.PathLike)) else list(loops)
     thread_count(threads)
+    words = texts("captions", captions)
+
+    def exported(files: List[Path], only_check: bool) -> Exported:
+        return Exported(*_echocine.export_loops(files, Path(output), words, columns, width, repeats, speed, fps, tint, threads,
+                                                only_check, None))
+
     with tempfile.TemporaryDirectory(prefix="echocine-") as spare:
-        files = [_as_files(loop, Path(spare) / str(i), threads) for i, loop in enumerate(given)]
-        return Exported(*_echocine.export_loops(files, Path(output), list(captions), columns, width, repeats, speed, fps, tint, threads,
-                                                None))
+        places = [Path(spare) / str(i) for i in range(len(given))]
+        exported([place if isinstance(loop, Loop) else Path(loop) for loop, place in zip(given, places)], True)
+        return exported([_as_files(loop, place, threads) for loop, place in zip(given, places)], False)
 
 
 class FrameDiscrepancy:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._errors import JobError, SceneError, thread_count
+from ._errors import JobError, SceneError, flag, thread_count
 from ._progress import Progress, report_to
 from ._scene import Scene
 from ._verify import RenderFiles, is_sealed
@@ -408,6 +408,8 @@ def _asking_for(scene: Scene, truth: Union[None, str, Sequence[str]]) -> Scene:
     planes = [f"{k}.{side}" for k in ("displacement", "velocity") if k in kinds for side in _SIDES]
     if "velocity_beam" in kinds:
         planes.append("velocity.beam")
+    if planes and not scene["output.exr"]:
+        raise SceneError("truth: displacement and velocity are channels, accepted: with output.exr = true")
     if planes:
         changes["output.channels"] = [*scene["output.channels"], *planes]
     asked.update(changes)
@@ -445,7 +447,7 @@ def render(scene: Scene, folder: Union[None, str, "os.PathLike[str]"] = None, *,
     if folder is None:
         return Loop(asked, _echocine.render_in_memory(asked._native, frames, threads, report_to(progress)), frames=frames)
     path = Path(folder)
-    _echocine.render_to_folder(asked._native, path, frames, threads, resume, overwrite, report_to(progress))
+    _echocine.render_to_folder(asked._native, path, frames, threads, flag("resume", resume), flag("overwrite", overwrite), report_to(progress))
     return Loop(asked, folder=path)
 
 

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine
-from ._errors import thread_count
+from ._errors import thread_count, whole_number
 from ._progress import Progress, report_to
 from ._scene import Scene
 
@@ -84,8 +84,7 @@ def mmode(scene: Scene, folder: Optional[PathLike] = None, *, angle_deg: Optiona
         threads: 0: one per core.
         progress: None, True, a function (done, total), or a bar as tqdm makes them.
     """
-    if not isinstance(rows, int) or not 16 <= rows <= 8192:
-        raise ValueError(f"rows: is {rows!r}, accepted: a whole number from 16 to 8192")
+    rows = whole_number("rows", rows, 16, 8192)
     if (angle_deg is not None) + (offset_mm is not None) + (through is not None) > 1:
         raise ValueError("angle_deg, offset_mm, through: accepted: one of them")
     made: Dict[str, Any] = _echocine.mmode(_scene(scene), None if folder is None else Path(folder), angle_deg, offset_mm, through, rate_hz,

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from . import _echocine, _meshes, _toml
-from ._errors import SceneError, thread_count
+from ._errors import SceneError, flag, thread_count
 from ._progress import Progress, report_to
 
 if TYPE_CHECKING:
@@ -415,7 +415,7 @@ class Scene:
             threads: at most; 0: one per core.
 
         Returns:
-            A page with ``link``, served until ``close()`` or the end of the program.
+            A page with ``link``, served until ``close()``, until nothing refers to the page, or until the end of the program.
 
         Raises:
             SceneError: the scene cannot be shown.
@@ -495,7 +495,8 @@ def heart(view: str = "a4c", *, segments: Optional[Mapping[int, Any]] = None, ke
         walls[int(number)] = (amplitude, delay_ms * 1e-3)
     if not isinstance(look, str):
         raise SceneError(f'heart: look: is {look!r}, accepted: a name such as "scanner"')
-    text, meshes = _echocine.heart(view, given, walls, keep_volumes, keyframes, look, even, thread_count(threads), report_to(progress))
+    text, meshes = _echocine.heart(view, given, walls, flag("keep_volumes", keep_volumes), keyframes, look, flag("even", even),
+                                   thread_count(threads), report_to(progress))
     return Scene._of(text, "heart", meshes)
 
 
