@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/check.h"
 #include "core/error.h"
 #include "core/parallel.h"
 #include "echo/sector.h"
@@ -120,12 +119,16 @@ std::vector<RealComparison::Weight> strongestOf(const FeatureRows& simulated,
   return weights;
 }
 
+void refuseFew(std::span<const RealLoop> real) {
+  if (real.size() < 2) throw SceneError("--real: is one loop, accepted: two or more");
+}
+
 }  // namespace
 
 void checkRealLoops(const Spec& spec, std::span<const RealLoop> real) {
   if (!spec.has("native"))
     throw SceneError("--real: the dataset has no layout \"native\", accepted: a dataset with it");
-  if (real.size() < 2) throw SceneError("--real: is one loop, accepted: two or more");
+  refuseFew(real);
   std::error_code failed;
   for (const RealLoop& loop : real)
     if (!std::filesystem::exists(loop.file, failed))
@@ -134,7 +137,7 @@ void checkRealLoops(const Spec& spec, std::span<const RealLoop> real) {
 
 RealComparison compareWithReal(const std::filesystem::path& folder, std::span<const Json> records,
                                std::span<const RealLoop> real, const Monitor& monitor) {
-  CHECK_LE(std::size_t{2}, real.size());
+  refuseFew(real);
   if (records.size() < 2)
     throw SceneError("--real: the dataset has fewer than two hearts, accepted: two or more");
   const std::vector<FeatureRows> of_real = measuredLoops(real, monitor);
