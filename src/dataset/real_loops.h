@@ -40,8 +40,8 @@ void checkRealLoops(const Spec& spec, std::span<const RealLoop> real);
 // discriminant is fitted to the other real loops and to every other heart; its area under the ROC
 // curve is that of the loop and of the remaining hearts. Loops of both kinds are read the same way:
 // pixels outside the detected sector are excluded. Runs on all threads of the enclosing
-// withThreads(). Throws SceneError for fewer than two hearts, or if a loop cannot be read or
-// measured; JobError if stopped. Precondition: checkRealLoops().
+// withThreads(). Throws SceneError for fewer than two real loops or two hearts, if native loops are
+// missing, or if a loop cannot be read or measured; JobError if stopped.
 RealComparison compareWithReal(const std::filesystem::path& folder, std::span<const Json> records,
                                std::span<const RealLoop> real, const Monitor& monitor);
 
