@@ -178,9 +178,9 @@ tgc_table_mm_db = [[1, 0], [160, 40]]
 reference_intensity = 1e-6
 )";
 
-// With sanitizers one value in three of each key, another third for the next key.
+// With sanitizers one value in six of each key, another sixth for the next key.
 #ifdef ECHOCINE_SANITIZED
-constexpr int kStep = 3;
+constexpr int kStep = 6;
 #else
 constexpr int kStep = 1;
 #endif

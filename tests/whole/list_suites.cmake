@@ -12,9 +12,9 @@ foreach(suite IN LISTS suites)
   set(cost 1)
   set(labels "")
   # The longest ones first, so that none is left to run alone.
-  if(suite MATCHES "^(ComparedRender|DatasetCommand|DatasetGrowth|DatasetJoin|ExrStackTest|FlippedBits|NumberSweep|Reading|SimulatorFrame|StopsAnywhere)$")
+  if(suite MATCHES "^(ComparedRender|DatasetCommand|ExrStackTest|FlippedBits|NumberSweep|Reading|SimulatorFrame|StopsAnywhere)$")
     set(cost 100)
-  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|KilledLoop|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|Privacy|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
+  elseif(suite MATCHES "^(CompareFit|CompareSpread|CompareSystole|CompareTilt|CompareViewRanking|CompareViews|DatasetGrowth|DatasetJoin|DicomViews|FitRegions|FittedRender|FitStrain|HeartFit|HeartMMode|HeartMotionWhole|KilledLoop|LeafletBodies|LeafletHearts|LooksLaw|PatientAgainstVideos|Planted|Privacy|SearchPrivacy|StudyCommandTest|StudySeeds|Tolerance|EachFamily/ToleranceOfHeart|Trabeculae|VideoWithEcg)$")
     set(cost 200)
     set(labels "LABELS long")  # searches, tables, hundreds of runs: minutes under sanitizers, over code that other suites run too
   elseif(suite MATCHES "^(BlockReach|ChordaeLaw|CoarseSurfacesLaw|CoherentEchoLaw|CompareEcg|DatasetPopulation|DatasetScenes|DecorrelationLaw|Doppler|DopplerHeart|DownshiftLaw|FibreDirection|FitChecksLaw|FitDesign|FitNewton|FitOwnLook|FitOwnSlope|FitPolish|FitResiduals|FitSections|GratingLobeLaw|HeartAnatomyLaw|HeartFolds|HeartFunctionLaw|HeartLoopLaw|HeartPatientLaw|HeartPrior|HeartTapseLaw|HeartViews|InteriorMotionLaw|LayerStack|LiveHeartDials|MaterialPointsLaw|MotionBetweenKeyframes|MotionChannelsLaw|NoiseLaw|ProbeView|SampledBeamLaw|SharedWindowsLaw|ShownTruthLaw|SmoothNormals|SpeckleLaw|StraightRays|SurroundingsLaw|TruthLabels|ValveRingLaw|ViewByHandLaw|ViewDensityLaw|ViewOffsetLaw|ViewPoseLaw|VisibleBorderLaw)$")
