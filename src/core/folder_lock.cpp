@@ -39,12 +39,4 @@ void FolderLock::checkStillThere() const {
       fmt::format("{}: was removed or replaced while the run wrote there", folder_.string()));
 }
 
-bool isLocked(const std::filesystem::path& folder) {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool locked = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return locked;
-}
-
 }  // namespace echocine

@@ -24,7 +24,4 @@ class FolderLock {
   int descriptor_;
 };
 
-// Does another run hold the folder now? False for a missing folder.
-bool isLocked(const std::filesystem::path& folder);
-
 }  // namespace echocine

@@ -10,6 +10,7 @@
 #include <chrono>
 #include <vector>
 
+#include "core/file_lock.h"
 #include "core/file_target.h"
 #include "core/hash_random.h"
 
@@ -30,15 +31,6 @@ std::uint32_t differing() {
 
 bool areHexDigits(std::string_view text) {
   return text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
-// By a writer that is still at work.
-bool isHeld(const std::filesystem::path& part) {
-  const int descriptor = ::open(part.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return held;
 }
 
 }  // namespace
@@ -76,7 +68,7 @@ void removePartsOf(const std::filesystem::path& path) {
   for (std::filesystem::directory_iterator it(folder, failed), end; it != end; it.increment(failed))
     if (targetOfPart(it->path().filename().string()) == target) parts.push_back(it->path());
   for (const std::filesystem::path& part : parts)
-    if (!isHeld(part)) std::filesystem::remove(part, failed);
+    if (!isFileLocked(part)) std::filesystem::remove(part, failed);
 }
 
 }  // namespace echocine

@@ -9,6 +9,7 @@
 
 #include "core/error.h"
 #include "core/file.h"
+#include "core/output_check.h"
 #include "core/parallel.h"
 #include "core/shown_path.h"
 #include "core/stop.h"
@@ -95,7 +96,7 @@ class Study {
 void Study::prepare() {
   if (!options_.folder.empty()) {
     makeFolder(options_.folder);
-    const WholeFile writable(options_.folder / "study.json");
+    checkOutputFile(options_.folder / "study.json");
   }
   result_.scene_file = scene_.file.filename().string();
   result_.dynamic_range_db = scene_.signal.dynamic_range_db;

@@ -56,7 +56,7 @@ TEST(BeamCatalogue, ARecordingIsReplacedWholly) {
   EXPECT_EQ(left, std::vector<std::string>{"loop.zarr"});
 }
 
-// What is wrong with names and places ends the command before a loop is rendered.
+// Wrong names and places end the command before a loop is rendered.
 TEST(BeamCatalogue, NamesOfZeaAreCheckedBeforeTheRender) {
   const TempFolder folder;
   writeBall(folder, ballScene(4));
