@@ -76,10 +76,15 @@ void FittedSides::compare(const std::vector<FitLoop>& loops, const std::vector<d
   discrepancies = std::move(made);
 }
 
-RenderedBeats FittedSides::ownLoopsOf(std::size_t view, const FitCost& cost, heart::View name,
-                                      const FitPlace& place, Look look) const {
-  return ownLoops(cost.dialsAt(place.at), name, cost.tiltAt(place.at, view), kFitFrames, look,
-                  ownPersistence(persistence[view], discrepancies[view].beat().span.frames));
+OwnHeart FittedSides::ownHeartOf(std::size_t view, const FitCost& cost, heart::View name,
+                                 const FitPlace& place) const {
+  return {cost.dialsAt(place.at), name, cost.tiltAt(place.at, view), kFitFrames};
+}
+
+RenderedBeats FittedSides::ownLoopsOf(std::size_t view, const OwnHeart& heart, Look look,
+                                      const RenderedBeats* other) const {
+  return heart.beats(
+      look, ownPersistence(persistence[view], discrepancies[view].beat().span.frames), other);
 }
 
 std::vector<FitSide> FittedSides::refer() const {
@@ -111,16 +116,26 @@ bool FittedSides::chooseLook(const FitCost& cost, const std::vector<heart::View>
   for (std::size_t v = 0; v < views.size(); ++v) {
     const ModelLoop plain = plainAt(v, cost, place);
     const FitPose& pose = place.found[v].pose;
-    parallelBlocks(scanners.size(), 1, [&](std::size_t i, std::size_t) {
-      if (!steps.next()) return;
-      if (costs[i] == kDropped) return steps.done();
-      const echo::EchoLoop loop =
-          ownLoopsOf(v, cost, views[v], place, scanners[i]).loop(seedOf(v, 2 * kTwins));
+    const OwnHeart heart = ownHeartOf(v, cost, views[v], place);
+    const auto addCost = [&](std::size_t i, RenderedBeats& beats) {
+      const echo::EchoLoop loop = beats.loop(seedOf(v, 2 * kTwins));
       const ModelDiscrepancy own(loop, beatOf(plain), plain);
       ModelLoop model = plain;
       lookIn({&own}, plain, discrepancies[v], pose).applyTo(model);
       costs[i] += viewCostOf(discrepancies[v].at(model, pose).discrepancy);
       steps.done();
+    };
+    const auto first = static_cast<std::size_t>(
+        std::find_if(costs.begin(), costs.end(), [](double c) { return c != kDropped; }) -
+        costs.begin());
+    if (!steps.next()) return false;
+    RenderedBeats shared = ownLoopsOf(v, heart, scanners[first]);
+    addCost(first, shared);
+    parallelBlocks(scanners.size(), 1, [&](std::size_t i, std::size_t) {
+      if (i == first || !steps.next()) return;
+      if (costs[i] == kDropped) return steps.done();
+      RenderedBeats beats = ownLoopsOf(v, heart, scanners[i], &shared);
+      addCost(i, beats);
     });
     if (steps.stopped()) return false;
     const double lowest = *std::min_element(costs.begin(), costs.end());
@@ -155,7 +170,7 @@ bool FittedSides::expectOwnLook(const FitCost& cost, const std::vector<heart::Vi
   parallelBlocks(views.size(), 1, [&](std::size_t v, std::size_t) {
     const ModelLoop plain = plainAt(v, cost, place);
     std::deque<ModelDiscrepancy> own;
-    RenderedBeats rendered = ownLoopsOf(v, cost, views[v], place, rendered_as);
+    RenderedBeats rendered = ownLoopsOf(v, ownHeartOf(v, cost, views[v], place), rendered_as);
     for (int twin = 0; twin < kTwins; ++twin) {
       if (!steps.next()) return;
       own.emplace_back(rendered.loop(seedOf(v, (1 + round) * kTwins + twin)), beatOf(plain), plain);
@@ -181,7 +196,8 @@ std::optional<OwnFit> fitOwnLoops(const FittedSides& sides, const FitCost& cost,
   std::vector<std::vector<echo::EchoLoop>> loops;
   std::vector<std::deque<ModelDiscrepancy>> others;  // than the first loop
   for (std::size_t v = 0; v < views.size(); ++v) {
-    RenderedBeats rendered = sides.ownLoopsOf(v, cost, views[v], best, sides.rendered_as);
+    RenderedBeats rendered =
+        sides.ownLoopsOf(v, sides.ownHeartOf(v, cost, views[v], best), sides.rendered_as);
     const ModelLoop model = own.modelAt(v, cost, best);
     loops.emplace_back();
     others.emplace_back();

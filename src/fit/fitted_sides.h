@@ -42,9 +42,12 @@ struct FittedSides {
   ModelLoop modelAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
   // The same without the expected look.
   ModelLoop plainAt(std::size_t view, const FitCost& cost, const FitPlace& place) const;
-  // Own loops of a view's heart at a place, in a look. Throws like expectOwnLook().
-  RenderedBeats ownLoopsOf(std::size_t view, const FitCost& cost, heart::View name,
-                           const FitPlace& place, Look look) const;
+  // A view's heart at a place. Throws like expectOwnLook().
+  OwnHeart ownHeartOf(std::size_t view, const FitCost& cost, heart::View name,
+                      const FitPlace& place) const;
+  // Its own loops in a look. `other`: as OwnHeart::beats().
+  RenderedBeats ownLoopsOf(std::size_t view, const OwnHeart& heart, Look look,
+                           const RenderedBeats* other = nullptr) const;
 
  private:
   ExpectedSlope slopeOf(std::size_t view, const OwnDiscrepancies& own, const FitCost& cost,

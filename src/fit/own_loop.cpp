@@ -2,8 +2,12 @@
 
 #include <utility>
 
+#include "core/error.h"
 #include "core/parallel.h"
+#include "frame/scene_speckle.h"
 #include "frame/simulator.h"
+#include "motion/heart/heart.h"
+#include "motion/heart/recording.h"
 #include "motion/surfaces/probe_placement.h"
 #include "signal/signal_chain.h"
 
@@ -18,6 +22,12 @@ RenderedBeats::RenderedBeats(Scene scene, int frames) : scene_(std::move(scene))
   scene_.output.ecg = scene_.output.depth_ticks = false;
 }
 
+RenderedBeats::RenderedBeats(Scene scene, int frames, const RenderedBeats& other)
+    : RenderedBeats(std::move(scene), frames) {
+  motion_ = other.first_->sharedMotion();
+  field_ = other.first_->sharedSpeckle()->field();
+}
+
 RenderedBeats::RenderedBeats(RenderedBeats&& other) noexcept = default;
 RenderedBeats::~RenderedBeats() = default;
 
@@ -25,8 +35,10 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
   Scene scene = first_ ? first_->scene() : scene_;
   scene.speckle.seed = scene.speckle.heterogeneity_seed = seed;
   scene.artefacts.noise_seed = scene.artefacts.clutter_seed = seed;
-  std::unique_ptr<const Simulator> made = first_ ? std::make_unique<const Simulator>(scene, *first_)
-                                                 : std::make_unique<const Simulator>(scene);
+  std::unique_ptr<const Simulator> made =
+      first_    ? std::make_unique<const Simulator>(scene, *first_)
+      : motion_ ? std::make_unique<const Simulator>(scene, motion_, field_)
+                : std::make_unique<const Simulator>(scene);
   const Simulator& simulator = *made;
   const Probe& p = simulator.scene().probe;
   const PictureGeometry& g = simulator.chain().geometry();
@@ -56,16 +68,28 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
   return loop;
 }
 
-RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, Look look,
-                       std::optional<double> persistence) {
-  Scene scene = heart::heartScene(heart::parametersFrom(dials), view, frames, look);
+OwnHeart::OwnHeart(const std::map<std::string, double>& dials, heart::View view,
+                   const PlaneTilt& tilt, int frames)
+    : parameters_(heart::parametersFrom(dials)), view_(view), tilt_(tilt), frames_(frames) {
+  if (const std::string fault = heart::faultOf(parameters_); !fault.empty())
+    throw SceneError("heart: " + fault);
+  recording_ = std::make_unique<const heart::Recording>(
+      heart::record(heart::ParametricHeart(parameters_), view, frames));
+}
+
+OwnHeart::OwnHeart(OwnHeart&& other) noexcept = default;
+OwnHeart::~OwnHeart() = default;
+
+RenderedBeats OwnHeart::beats(Look look, std::optional<double> persistence,
+                              const RenderedBeats* other) const {
+  Scene scene = heart::sceneOf(view_, parameters_, *recording_, look);
   // Half of both changes D with own look by less than its noise. Our choice.
   scene.probe.lines /= 2;
   scene.probe.samples /= 2;
   scene.artefacts.persistence = persistence.value_or(scene.artefacts.persistence);
-  scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt.rotate_rad, tilt.tilt_rad);
-  return {std::move(scene), frames};
+  scene.probe.pose = turnedAndTilted(scene.probe.pose, tilt_.rotate_rad, tilt_.tilt_rad);
+  if (other) return {std::move(scene), frames_, *other};
+  return {std::move(scene), frames_};
 }
 
 }  // namespace echocine::fit

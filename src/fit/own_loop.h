@@ -13,8 +13,10 @@
 #include "motion/heart/heart_scene.h"
 
 namespace echocine {
+class MeshMotion;
+class MotionField;
 class Simulator;
-}
+}  // namespace echocine
 
 namespace echocine::fit {
 
@@ -23,6 +25,9 @@ namespace echocine::fit {
 class RenderedBeats {
  public:
   RenderedBeats(Scene scene, int frames);
+  // Shares the motion of `other` too, which has made a loop. Precondition: the same heart and plane
+  // in looks of scannerLooks().
+  RenderedBeats(Scene scene, int frames, const RenderedBeats& other);
   RenderedBeats(RenderedBeats&& other) noexcept;
   ~RenderedBeats();
 
@@ -33,6 +38,9 @@ class RenderedBeats {
   Scene scene_;
   int frames_;
   std::unique_ptr<const Simulator> first_;  // null before the first loop
+  // Those of another look; null: none.
+  std::shared_ptr<const MeshMotion> motion_;
+  std::shared_ptr<const MotionField> field_;
 };
 
 // The only loop of a scene.
@@ -40,10 +48,32 @@ inline echo::EchoLoop renderedBeat(Scene scene, int frames, int seed) {
   return RenderedBeats(std::move(scene), frames).loop(seed);
 }
 
-// Loops of a heart, with the plane tilted. persistence: none for that of the look. Throws
-// SceneError for impossible dials.
-RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                       const PlaneTilt& tilt, int frames, Look look = Look::scanner,
-                       std::optional<double> persistence = {});
+// A heart whose own loops have the plane tilted, and in several looks the same meshes.
+class OwnHeart {
+ public:
+  // Throws SceneError for impossible dials.
+  OwnHeart(const std::map<std::string, double>& dials, heart::View view, const PlaneTilt& tilt,
+           int frames);
+  OwnHeart(OwnHeart&& other) noexcept;
+  ~OwnHeart();
+
+  // persistence: none for that of the look. `other`: beats of another look, which have made a
+  // loop; null: none. Both are then scannerLooks(). Thread-safe.
+  RenderedBeats beats(Look look = Look::scanner, std::optional<double> persistence = {},
+                      const RenderedBeats* other = nullptr) const;
+
+ private:
+  heart::Parameters parameters_;
+  heart::View view_;
+  PlaneTilt tilt_;
+  int frames_;
+  std::unique_ptr<const heart::Recording> recording_;
+};
+
+// The loops of a heart in one look. Throws SceneError for impossible dials.
+inline RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
+                              const PlaneTilt& tilt, int frames, Look look = Look::scanner) {
+  return OwnHeart(dials, view, tilt, frames).beats(look);
+}
 
 }  // namespace echocine::fit

@@ -141,7 +141,8 @@ FrameEffects::FrameEffects(const Scene& scene, const MeshMotion& motion,
 
 FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_motion,
                          LoopPlan given_plan, const SceneSpeckle* source,
-                         std::shared_ptr<const SignalChain> given_chain)
+                         std::shared_ptr<const SignalChain> given_chain,
+                         std::shared_ptr<const MotionField> known_field)
     : scene(std::move(given)),
       motion(std::move(given_motion)),
       plan(std::move(given_plan)),
@@ -153,7 +154,7 @@ FrameStages::FrameStages(Scene given, std::shared_ptr<const MeshMotion> given_mo
              where<Chordae>(plan.effects.chordae, scene, *motion),
              where<ValveRings>(plan.effects.annulus, scene, *motion)},
       rays(scene, plan, valves),
-      field(scene, *motion, source ? source->field() : nullptr),
+      field(scene, *motion, source ? source->field() : std::move(known_field)),
       effects(scene, *motion, field, plan, cardiac_clock, chain, source, valves),
       truth(scene, *motion, field, cardiac_clock, plan, effects.rolling.get(),
             plan.left_out.none() && !effects.trabeculae && !valves.leaflets),

@@ -38,11 +38,12 @@ struct FrameEffects {
 };
 
 struct FrameStages {
-  // `source`: as Simulator's. `chain`: that of other stages, whose scene and plan differ at most in
-  // structures and in the probe's pose; null: made here.
+  // `source`, `known_field`: as Simulator's. `chain`: that of other stages, whose scene and plan
+  // differ at most in structures and in the probe's pose; null: made here.
   FrameStages(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
               const SceneSpeckle* source = nullptr,
-              std::shared_ptr<const SignalChain> chain = nullptr);
+              std::shared_ptr<const SignalChain> chain = nullptr,
+              std::shared_ptr<const MotionField> known_field = nullptr);
 
   // As Simulator::make().
   Volumes make(const FrameTime& time, const Making& making, Workspace& workspace) const;

@@ -75,8 +75,14 @@ double Simulator::referenceIntensity() const {
 Simulator::Simulator(Scene scene)
     : Simulator((refuseOutOfRange(scene), placedWithMotion(std::move(scene)))) {}
 
-Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion)
-    : Simulator(scene, motion, planLoop(scene, *motion)) {}
+Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion,
+                     std::shared_ptr<const MotionField> field)
+    : stages_([&] {
+        LoopPlan plan = planLoop(scene, *motion);
+        return std::make_unique<const FrameStages>(std::move(scene), std::move(motion),
+                                                   std::move(plan), nullptr, nullptr,
+                                                   std::move(field));
+      }()) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
                      const SceneSpeckle* source)

@@ -20,6 +20,7 @@ namespace echocine {
 
 class CardiacClock;
 class MeshMotion;
+class MotionField;
 class SceneSpeckle;
 class SignalChain;
 class StageClock;
@@ -50,8 +51,11 @@ class Simulator {
   // loop. Throws SceneError that names the scene's key, file and face; JobError if a surface is
   // inverted between keyframes.
   explicit Simulator(Scene scene);
-  // Shares the motion with other simulators. Precondition: it was made from this scene.
-  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion);
+  // Shares the motion with other simulators. Precondition: it was made from this scene. `field`: of
+  // the tissue, from a scene of the same structures, motion_field_cells and trabeculae; null: it is
+  // fitted here.
+  Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion,
+            std::shared_ptr<const MotionField> field = nullptr);
   // `source`: speckle of another simulator of this motion, whose field is shared, and whose
   // scatterers too unless the seeds of speckle differ. Otherwise its precondition is that of
   // SceneSpeckle.

@@ -8,6 +8,7 @@
 #include "core/error.h"
 #include "render/render.h"
 #include "scene/scene_reader.h"
+#include "support/all_cases.h"
 #include "support/meshes.h"
 #include "support/temp_folder.h"
 
@@ -178,12 +179,8 @@ tgc_table_mm_db = [[1, 0], [160, 40]]
 reference_intensity = 1e-6
 )";
 
-// With sanitizers one value in six of each key, another sixth for the next key.
-#ifdef ECHOCINE_SANITIZED
-constexpr int kStep = 6;
-#else
-constexpr int kStep = 1;
-#endif
+// One value in so many of each key, another one for the next key.
+const int kStep = allCases() ? 1 : 3;
 
 const std::string kValues =
     "5e-324 1e-300 -0.0 0.0 -1.0 1e-7 0.001 1000.0 1e5 1e6 1e9 1e60 1e308 nan inf -inf "

@@ -7,6 +7,7 @@
 
 #include "echo/ecg_trace.h"
 #include "echo/ecg_waves.h"
+#include "support/all_cases.h"
 #include "support/drawn_ecg.h"
 #include "support/paths.h"
 
@@ -66,6 +67,8 @@ TEST(CompareEcg, ColourNoiseAndCompressionDoNotMatter) {
       {"green", {0, 255, 0}}, {"white", {255, 255, 255}}, {"yellow", {0, 220, 240}}};
   for (const EcgKind kind : kKinds)
     for (const auto& [name, colour] : colours) {
+      const bool own = colour == colours[static_cast<std::size_t>(kind)].second;
+      if (!own && !allCases()) continue;  // a colour for each kind
       expectFound({.kind = kind, .colour = colour, .r_s = evenBeats(70, 0.4), .noise = 6},
                   fmt::format("{}, {}, noise", nameOf(kind), name));
       expectFound({.kind = kind, .colour = colour, .r_s = evenBeats(70, 0.4), .jpeg_quality = 60},

@@ -16,6 +16,7 @@ class FaultyLoop : public ::testing::Test {
     text.probe["lines"] = "16";
     text.output["png"] = "true";
     text.output["dicom"] = "true";
+    makeCoarse(text);
     return text;
   }
   explicit FaultyLoop(const SceneText& text = sceneText()) {

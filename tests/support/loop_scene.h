@@ -21,6 +21,12 @@ inline SceneText ballScene(int frames) {
   return text;
 }
 
+// A wide beam and a long pulse: the reference of such a scene has few lines and samples.
+inline void makeCoarse(SceneText& text) {
+  text.probe["aperture_mm"] = "6";
+  text.signal["pulse_cycles"] = "8";
+}
+
 inline void writeBallMeshes(const TempFolder& folder) {
   for (int i = 0; i < 8; ++i) {
     const double squeeze = 1 + 0.15 * std::cos(2 * std::numbers::pi * i / 8);

@@ -15,11 +15,11 @@
 namespace echocine::support {
 
 #if defined(NDEBUG)
-inline constexpr std::uint64_t kScenes = 2500;
+inline constexpr std::uint64_t kScenes = 1000;
 #elif defined(ECHOCINE_SANITIZED)
 inline constexpr std::uint64_t kScenes = 200;
 #else
-inline constexpr std::uint64_t kScenes = 500;
+inline constexpr std::uint64_t kScenes = 300;
 #endif
 
 inline std::uint64_t sceneCount() {

@@ -18,6 +18,7 @@ inline SceneText studiedBall() {
   text.structures.replace(text.structures.find("myocardium"), 10, "fat");
   text.probe["depth_mm"] = "110";
   text.motion["subdivision"] = "1";
+  makeCoarse(text);
   return text;
 }
 

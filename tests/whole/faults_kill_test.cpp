@@ -106,7 +106,7 @@ TEST_F(KilledLoop, AtSeededMomentsResumesToTheSameBytes) {
 // many.
 TEST_F(KilledLoop, AStudyLeavesWholeFilesAndRunsAgain) {
   const FaultyRun study{{"study", scene, "-o", out, "--frames", "1", "--repeats", "1", "--knobs",
-                         "lines,refraction", "--quiet", "--threads", "1"}};
+                         "lines", "--quiet", "--threads", "1"}};
   const auto wholeFiles = [&] {
     std::map<std::string, std::string> found = leftIn(out);
     for (auto& [name, bytes] : found) {

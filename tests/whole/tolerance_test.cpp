@@ -28,6 +28,7 @@ SceneText tolerantBall() {
   SceneText text = ballScene(9);
   text.probe["depth_mm"] = "110";
   text.motion["subdivision"] = "1";
+  makeCoarse(text);
   return text;
 }
 
