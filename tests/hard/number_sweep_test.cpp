@@ -180,7 +180,7 @@ reference_intensity = 1e-6
 )";
 
 // One value in so many of each key, another one for the next key.
-const int kStep = allCases() ? 1 : 3;
+const int kStep = allCases() ? 1 : 4;
 
 const std::string kValues =
     "5e-324 1e-300 -0.0 0.0 -1.0 1e-7 0.001 1000.0 1e5 1e6 1e9 1e60 1e308 nan inf -inf "

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "support/all_cases.h"
 #include "support/loop_scene.h"
 #include "support/run_program.h"
 
@@ -41,10 +42,13 @@ TEST_F(HostileArguments, EveryNumberOfTheCommandLineHasFiniteBounds) {
       {"study" + in("scene.toml") + out, {"--budget-s", "--frames", "--repeats", "--threads"}},
       {"render" + in("scene.toml") + out, {"--tolerance-db", "--threads", "--frames"}},
       {"heart" + out, {"--hr", "--edv", "--ef", "--keyframes", "--threads"}}};
+  const char* const values[] = {"nan", "inf", "1e308", "99999999999999999999", "-1e-300"};
+  const std::size_t step = allCases() ? 1 : 3;  // one value in so many, another one for the next
+  std::size_t next = 0;
   for (const auto& [line, names] : options)
     for (const std::string& name : names)
-      for (const char* value : {"nan", "inf", "1e308", "99999999999999999999", "-1e-300"})
-        expectRefused(line + " " + name + "=" + value, name.substr(2));
+      for (const char* value : values)
+        if (next++ % step == 0) expectRefused(line + " " + name + "=" + value, name.substr(2));
 }
 
 TEST_F(HostileArguments, AFractionOfABeatAMinuteIsAHeartRate) {

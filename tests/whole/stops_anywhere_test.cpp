@@ -8,6 +8,7 @@
 #include <memory>
 #include <random>
 
+#include "support/all_cases.h"
 #include "support/faulty_run.h"
 #include "support/loop_output.h"
 #include "support/loop_scene.h"
@@ -19,8 +20,10 @@ using namespace support;
 
 #ifdef ECHOCINE_SANITIZED
 constexpr double kMost_s = 15;
+constexpr std::size_t kSectors = 1;
 #else
 constexpr double kMost_s = 1;
+constexpr std::size_t kSectors = 2;
 #endif
 
 double seconds(const timeval& time) {
@@ -213,8 +216,8 @@ TEST_F(StopsAnywhere, ASectorFarFromItsApexTakesLittle) {
   text.probe["face_radius_mm"] = "1000";
   text.signal["look"] = "\"scanner\"";
   writeBall(*place, text);
-  for (const char* per_cell : {"0.1", "12"}) {
-    text.extra = std::string("[speckle]\nper_cell = ") + per_cell + "\n";
+  for (const std::string per_cell : casesOf<std::string>({"0.1", "12"}, kSectors)) {
+    text.extra = "[speckle]\nper_cell = " + per_cell + "\n";
     const fs::path scene = place->write("far.toml", text.text());
     const double before_s = usedByChildren_s();
     const Outcome outcome = renderScene(scene, *place / "far", "--threads 1");
