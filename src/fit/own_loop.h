@@ -70,10 +70,4 @@ class OwnHeart {
   std::unique_ptr<const heart::Recording> recording_;
 };
 
-// The loops of a heart in one look. Throws SceneError for impossible dials.
-inline RenderedBeats ownLoops(const std::map<std::string, double>& dials, heart::View view,
-                              const PlaneTilt& tilt, int frames, Look look = Look::scanner) {
-  return OwnHeart(dials, view, tilt, frames).beats(look);
-}
-
 }  // namespace echocine::fit

@@ -26,7 +26,8 @@ struct OneDial {
       : family(HeartNodes(fixed, HeartDesign::polynomial({searchedDials().front().range}),
                           kFitFrames, {}),
                heart::View::a4c, {}),
-        loop(ownLoops({{"ef", 0.5}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
+        loop(OwnHeart({{"ef", 0.5}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
+                 .beats()
                  .loop(5)),
         discrepancy(loop, support::fromTheStart(), family.at({0.5}, {}, Focus::left_ventricle)) {}
 

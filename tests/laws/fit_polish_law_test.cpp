@@ -23,7 +23,8 @@ TEST(FitPolish, KeepsEnoughPlacesAtALimit) {
     const HeartFamily family(hearts, heart::View::a4c, {}, kTilt_deg);
     const double low = searchedDials().front().range.low;
     const echo::EchoLoop loop =
-        ownLoops({{"ef", low + 0.02}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
+        OwnHeart({{"ef", low + 0.02}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
+            .beats()
             .loop(5);
     const ModelDiscrepancy discrepancy(loop, support::fromTheStart(),
                                        family.at({0.4}, {}, Focus::left_ventricle));

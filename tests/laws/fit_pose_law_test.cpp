@@ -88,7 +88,9 @@ TEST(FitGrid, AnAxisOfTwoValuesStaysAtTheBestOne) {
                    {}),
         heart::View::a4c, {});
     const echo::EchoLoop loop =
-        ownLoops({{"ef", 0.5}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames).loop(5);
+        OwnHeart({{"ef", 0.5}, {"edv", 120}, {"hr", 72}}, heart::View::a4c, {}, kFitFrames)
+            .beats()
+            .loop(5);
     const ModelDiscrepancy discrepancy(loop, fromTheStart(),
                                        family.at({0.5, 120}, {}, Focus::left_ventricle));
     const DialGrid measured = holdGrid(three, family, discrepancy, {FitPose{}});

@@ -31,11 +31,12 @@ struct TwoDials {
                           HeartDesign::polynomial({{"ef", 0.35, 0.65}, {"ellipticity", -0.3, 0.3}}),
                           kFitFrames, {}),
                heart::View::psax_mid, {}),
-        loop(ownLoops({{"ef", kPlantedEf},
+        loop(OwnHeart({{"ef", kPlantedEf},
                        {"ellipticity", kPlantedEllipticity},
                        {"edv", 120},
                        {"hr", 72}},
                       heart::View::psax_mid, {}, kFitFrames)
+                 .beats()
                  .loop(5)),
         discrepancy(loop, support::fromTheStart(),
                     family.at({kPlantedEf, 0}, {}, Focus::left_ventricle)) {}

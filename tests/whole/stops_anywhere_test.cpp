@@ -216,7 +216,7 @@ TEST_F(StopsAnywhere, ASectorFarFromItsApexTakesLittle) {
   text.probe["face_radius_mm"] = "1000";
   text.signal["look"] = "\"scanner\"";
   writeBall(*place, text);
-  for (const std::string per_cell : casesOf<std::string>({"0.1", "12"}, kSectors)) {
+  for (const std::string& per_cell : casesOf<std::string>({"0.1", "12"}, kSectors)) {
     text.extra = "[speckle]\nper_cell = " + per_cell + "\n";
     const fs::path scene = place->write("far.toml", text.text());
     const double before_s = usedByChildren_s();
