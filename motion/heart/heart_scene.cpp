@@ -147,11 +147,14 @@ Scene sceneOf(View view, const Parameters& parameters, const Recording& recordin
   return parseScene(sceneText(view, parameters, recording, "", look), "heart", meshesOf(recording));
 }
 
-Scene heartScene(const Parameters& parameters, View view, int keyframes, Look look) {
+Recording heartRecording(const Parameters& parameters, View view, int keyframes) {
   if (const std::string fault = faultOf(parameters); !fault.empty())
     throw SceneError("heart: " + fault);
-  const ParametricHeart model(parameters);
-  return sceneOf(view, parameters, record(model, view, keyframes), look);
+  return record(ParametricHeart(parameters), view, keyframes);
+}
+
+Scene heartScene(const Parameters& parameters, View view, int keyframes, Look look) {
+  return sceneOf(view, parameters, heartRecording(parameters, view, keyframes), look);
 }
 
 }  // namespace echocine::heart

@@ -33,8 +33,11 @@ NamedMeshes meshesOf(const Recording& recording);
 Scene sceneOf(View view, const Parameters& parameters, const Recording& recording,
               Look look = Look::scanner);
 
-// A heart from its dials with `keyframes` instants: all of the above in one call. Runs in parallel
-// inside withThreads(). Throws SceneError for impossible parameters.
+// A heart from its dials with `keyframes` instants by motion. Runs in parallel inside
+// withThreads(). Throws SceneError for impossible parameters.
+Recording heartRecording(const Parameters& parameters, View view, int keyframes);
+
+// All of the above in one call. Throws likewise.
 Scene heartScene(const Parameters& parameters, View view, int keyframes = 24,
                  Look look = Look::scanner);
 

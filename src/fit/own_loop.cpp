@@ -2,11 +2,9 @@
 
 #include <utility>
 
-#include "core/error.h"
 #include "core/parallel.h"
 #include "frame/scene_speckle.h"
 #include "frame/simulator.h"
-#include "motion/heart/heart.h"
 #include "motion/heart/recording.h"
 #include "motion/surfaces/probe_placement.h"
 #include "signal/signal_chain.h"
@@ -70,12 +68,12 @@ echo::EchoLoop RenderedBeats::loop(int seed) {
 
 OwnHeart::OwnHeart(const std::map<std::string, double>& dials, heart::View view,
                    const PlaneTilt& tilt, int frames)
-    : parameters_(heart::parametersFrom(dials)), view_(view), tilt_(tilt), frames_(frames) {
-  if (const std::string fault = heart::faultOf(parameters_); !fault.empty())
-    throw SceneError("heart: " + fault);
-  recording_ = std::make_unique<const heart::Recording>(
-      heart::record(heart::ParametricHeart(parameters_), view, frames));
-}
+    : parameters_(heart::parametersFrom(dials)),
+      view_(view),
+      tilt_(tilt),
+      frames_(frames),
+      recording_(std::make_unique<const heart::Recording>(
+          heart::heartRecording(parameters_, view, frames))) {}
 
 OwnHeart::OwnHeart(OwnHeart&& other) noexcept = default;
 OwnHeart::~OwnHeart() = default;

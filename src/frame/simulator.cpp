@@ -77,17 +77,13 @@ Simulator::Simulator(Scene scene)
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion,
                      std::shared_ptr<const MotionField> field)
-    : stages_([&] {
-        LoopPlan plan = planLoop(scene, *motion);
-        return std::make_unique<const FrameStages>(std::move(scene), std::move(motion),
-                                                   std::move(plan), nullptr, nullptr,
-                                                   std::move(field));
-      }()) {}
+    : Simulator(scene, motion, planLoop(scene, *motion), nullptr, std::move(field)) {}
 
 Simulator::Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
-                     const SceneSpeckle* source)
+                     const SceneSpeckle* source, std::shared_ptr<const MotionField> field)
     : stages_(std::make_unique<const FrameStages>(std::move(scene), std::move(motion),
-                                                  std::move(plan), source)) {}
+                                                  std::move(plan), source, nullptr,
+                                                  std::move(field))) {}
 
 Simulator::Simulator(Scene scene, const Simulator& source)
     : Simulator(std::move(scene), source.sharedMotion(), source.plan(),

@@ -58,9 +58,10 @@ class Simulator {
             std::shared_ptr<const MotionField> field = nullptr);
   // `source`: speckle of another simulator of this motion, whose field is shared, and whose
   // scatterers too unless the seeds of speckle differ. Otherwise its precondition is that of
-  // SceneSpeckle.
+  // SceneSpeckle. `field`: as above, if there is no source.
   Simulator(Scene scene, std::shared_ptr<const MeshMotion> motion, LoopPlan plan,
-            const SceneSpeckle* source = nullptr);
+            const SceneSpeckle* source = nullptr,
+            std::shared_ptr<const MotionField> field = nullptr);
 
   // Shares motion, plan and speckle of another simulator likewise. Precondition: their scenes
   // differ at most in lines, samples, seeds and what neither plan nor scatterers depend on.
